@@ -1,0 +1,1 @@
+"""Drivers of hapticd, one folder per device family."""

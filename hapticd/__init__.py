@@ -1,0 +1,1 @@
+"""hapticd: the service that owns a haptic device."""

@@ -1,0 +1,16 @@
+//! `hapticd._core`: the binding. Converts, calls, maps errors; nothing is decided here.
+
+use pyo3::prelude::*;
+
+mod control;
+mod servo;
+mod twin;
+
+/// Rust core of hapticd.
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    control::register(module)?;
+    twin::register(module)?;
+    servo::register(module)?;
+    Ok(())
+}

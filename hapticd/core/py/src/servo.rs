@@ -1,0 +1,8 @@
+//! Binding of the servo crate.
+
+use pyo3::prelude::*;
+
+/// Adds this module's names to `hapticd._core`.
+pub fn register(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+    Ok(())
+}
