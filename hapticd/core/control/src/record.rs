@@ -33,18 +33,30 @@ pub struct Field {
 trait Word {
     const KIND: Kind;
     const WORDS: usize;
+    fn put(self, out: &mut [u64]);
 }
 impl Word for f64 {
     const KIND: Kind = Kind::Float;
     const WORDS: usize = 1;
+    fn put(self, out: &mut [u64]) {
+        out[0] = self.to_bits();
+    }
 }
 impl Word for Axes {
     const KIND: Kind = Kind::Float;
     const WORDS: usize = 3;
+    fn put(self, out: &mut [u64]) {
+        for (word, value) in out.iter_mut().zip(self) {
+            *word = value.to_bits();
+        }
+    }
 }
 impl Word for u64 {
     const KIND: Kind = Kind::Unsigned;
     const WORDS: usize = 1;
+    fn put(self, out: &mut [u64]) {
+        out[0] = self;
+    }
 }
 
 macro_rules! record {
@@ -62,6 +74,22 @@ macro_rules! record {
             unit: $unit,
             meaning: $meaning,
         }, )* ];
+
+        impl TickRecord {
+            /// The record word by word, in the order of [`FIELDS`].
+            #[must_use]
+            pub fn words(&self) -> [u64; RECORD_WORDS] {
+                let mut words = [0; RECORD_WORDS];
+                let mut at = 0;
+                $(
+                    let size = <$type as Word>::WORDS;
+                    self.$name.put(&mut words[at..at + size]);
+                    at += size;
+                )*
+                debug_assert_eq!(at, RECORD_WORDS);
+                words
+            }
+        }
     };
 }
 
@@ -164,5 +192,24 @@ mod tests {
     fn schema_covers_every_word_of_the_record() {
         let words: usize = FIELDS.iter().map(|field| field.words).sum();
         assert_eq!(words, RECORD_WORDS);
+    }
+
+    #[test]
+    fn words_keep_the_order_of_the_schema() {
+        let record = TickRecord {
+            tick: 7,
+            tip_position_m: [1.0, 2.0, 3.0],
+            missed_ticks: 9,
+            ..TickRecord::default()
+        };
+        let words = record.words();
+        let at = |name: &str| -> usize {
+            let before = FIELDS.iter().take_while(|field| field.name != name);
+            before.map(|field| field.words).sum()
+        };
+        let tip = at("tip_position_m");
+        assert_eq!(words[0], 7);
+        assert_eq!(words[tip..tip + 3], [1.0, 2.0, 3.0].map(f64::to_bits));
+        assert_eq!(words[RECORD_WORDS - 1], 9);
     }
 }
