@@ -2,8 +2,20 @@
 //! allocate → bound → command. Pure functions over fixed-size values: no I/O, no allocation
 //! in a tick, no clock of its own.
 
+pub mod check;
+pub mod contact;
+pub mod controller;
+pub mod couple;
+pub mod environment;
+pub mod estimate;
 pub mod fault;
+pub mod interlock;
 pub mod io;
+pub mod kinematics;
+pub mod layers;
+pub mod linear;
+pub mod mapping;
 pub mod model;
 pub mod record;
 pub mod scene;
+pub mod state;
