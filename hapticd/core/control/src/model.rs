@@ -76,6 +76,8 @@ pub struct EstimatorModel {
 }
 
 /// What turns set-points into joint torque.
+// Boxing a variant would cost the enum its Copy; there is one per device.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "type", rename_all = "snake_case")]
 pub enum DriveModel {

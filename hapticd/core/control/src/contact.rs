@@ -1,0 +1,51 @@
+//! Which walls the tip is in.
+
+use crate::linear::V3;
+use crate::scene::Wall;
+
+/// What the tip touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Walls the tip is in; walls with η = 1 do not exist.
+    pub count: usize,
+    /// Index of the deepest; [`usize::MAX`] when free.
+    pub wall: usize,
+    /// Depth in the deepest, m.
+    pub depth_m: f64,
+    /// Normal of the deepest, zero when free.
+    pub normal: V3,
+}
+
+impl Contact {
+    /// No wall touched.
+    pub const FREE: Self = Self {
+        count: 0,
+        wall: usize::MAX,
+        depth_m: 0.0,
+        normal: V3::new(0.0, 0.0, 0.0),
+    };
+}
+
+/// Depth of `x`, m, in the wall: positive inside.
+#[must_use]
+pub fn depth_m(wall: &Wall, x: &V3) -> f64 {
+    wall.offset_m - V3::from(wall.normal).dot(x)
+}
+
+/// The walls that contain the tip `x`, m.
+#[must_use]
+pub fn contact(walls: &[Wall], x: &V3) -> Contact {
+    let mut found = Contact::FREE;
+    for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.eta < 1.0) {
+        let depth_m = depth_m(wall, x);
+        if depth_m > 0.0 {
+            found.count += 1;
+        }
+        if depth_m > found.depth_m {
+            found.wall = index;
+            found.depth_m = depth_m;
+            found.normal = wall.normal.into();
+        }
+    }
+    found
+}

@@ -1,0 +1,164 @@
+//! The quasi-static motion environment: where the walls want the tip (WN §IV, V).
+
+use crate::contact::depth_m;
+use crate::linear::{M3, V3};
+use crate::scene::Wall;
+
+/// Smallest η used. A rigid wall yields by this fraction of the depth, 1 nm at 10 mm, and in
+/// exchange duplicates, contradictions and hundreds of walls stay well posed.
+const ETA_MIN: f64 = 1e-7;
+
+/// Newton steps at most. Two to four are usual; the objective falls with every one.
+const NEWTON_STEPS: usize = 40;
+
+/// Newton step, m, below which the set-point is found.
+const STEP_MIN_M: f64 = 1e-10;
+
+/// Evaluations of the line search at most.
+const SEARCH_STEPS: usize = 30;
+
+/// Where the environment wants the tip.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SetPoint {
+    /// x_Sd, m.
+    pub x_sd: V3,
+    /// ẋ_Sd, m/s.
+    pub xd_sd: V3,
+}
+
+/// Set-point of the tip at `x`, m, moving at `xd`, m/s, among `walls` with unit normals.
+///
+/// One wall gives WN eq. 30, x_Sd = ηx + (1−η)x₀. Several give the proximal point of the
+/// Moreau envelope (physics §3.4)
+///
+/// x_Sd = argmin_z ½|z−x|² + Σ wᵢ/2 max(0, dᵢ − nᵢᵀz)²,  wᵢ = (1−ηᵢ)/ηᵢ,
+///
+/// whose pull x_Sd − x is the gradient of a potential and never stiffer than one rigid wall.
+/// ẋ_Sd = ∂x_Sd/∂x · ẋ. Walls with η ≥ 1 are free space.
+#[must_use]
+pub fn set_point(walls: &[Wall], x: &V3, xd: &V3) -> SetPoint {
+    let proximal = proximal(walls, x);
+    SetPoint {
+        x_sd: x + proximal.shift,
+        xd_sd: proximal.derivative * xd,
+    }
+}
+
+/// Minimum of the objective over one fixed set of active walls.
+#[derive(Clone, Copy)]
+struct Proximal {
+    /// z − x, m.
+    shift: V3,
+    /// D = ∂z/∂x = (I + Σ w n nᵀ)⁻¹ over the active walls.
+    derivative: M3,
+}
+
+impl Proximal {
+    const FREE: Self = Self {
+        shift: V3::new(0.0, 0.0, 0.0),
+        derivative: M3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+    };
+
+    /// Adds one wall by a rank-one update: a measurement n·shift = depth of variance 1/w. Stays
+    /// accurate where inverting I + Σ w n nᵀ would cancel.
+    fn add(&mut self, n: &V3, depth: f64, variance: f64) {
+        let dn = self.derivative * n;
+        let gain = dn / (variance + n.dot(&dn));
+        self.shift += gain * (depth - n.dot(&self.shift));
+        self.derivative -= gain * dn.transpose();
+    }
+}
+
+/// Newton's method on the piecewise quadratic objective. Each step minimises over the walls
+/// active at `shift`; it ends when that minimum is where it already is.
+fn proximal(walls: &[Wall], x: &V3) -> Proximal {
+    let mut shift = V3::zeros();
+    let mut proximal = Proximal::FREE;
+    for _ in 0..NEWTON_STEPS {
+        proximal = minimum_over_active(walls, x, &shift);
+        let step = proximal.shift - shift;
+        if step.norm() <= STEP_MIN_M {
+            break;
+        }
+        shift += step_length(walls, x, &shift, &step) * step;
+    }
+    proximal
+}
+
+fn minimum_over_active(walls: &[Wall], x: &V3, shift: &V3) -> Proximal {
+    let mut proximal = Proximal::FREE;
+    for active in active(walls, x, shift) {
+        proximal.add(&active.n, active.depth, active.variance);
+    }
+    proximal
+}
+
+/// A wall that contains the point looked at.
+struct Active {
+    n: V3,
+    /// Depth of x, m; not of the point.
+    depth: f64,
+    /// Depth of the point, m.
+    violation: f64,
+    /// 1/w.
+    variance: f64,
+}
+
+fn active<'a>(walls: &'a [Wall], x: &'a V3, shift: &'a V3) -> impl Iterator<Item = Active> + 'a {
+    let solid = walls.iter().filter(|wall| wall.eta < 1.0);
+    solid.filter_map(move |wall| {
+        let n = V3::from(wall.normal);
+        let depth = depth_m(wall, x);
+        let violation = depth - n.dot(shift);
+        let eta = wall.eta.max(ETA_MIN);
+        (violation > 0.0).then(|| Active {
+            n,
+            depth,
+            violation,
+            variance: eta / (1.0 - eta),
+        })
+    })
+}
+
+/// The full step where the objective falls by it, which is nearly always; otherwise the step
+/// to the minimum along the line, so that no cycle of active sets is possible.
+fn step_length(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> f64 {
+    if objective(walls, x, &(shift + step)) < objective(walls, x, shift) {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut t = 1.0;
+    for _ in 0..SEARCH_STEPS {
+        let (slope, curvature) = line(walls, x, &(shift + t * step), step);
+        if slope > 0.0 {
+            high = t;
+        } else {
+            low = t;
+        }
+        t -= slope / curvature;
+        if !(low..=high).contains(&t) {
+            t = 0.5 * (low + high);
+        }
+    }
+    t
+}
+
+/// ½|z−x|² + Σ w/2 violation².
+fn objective(walls: &[Wall], x: &V3, shift: &V3) -> f64 {
+    let walls: f64 = active(walls, x, shift)
+        .map(|wall| wall.violation.powi(2) / wall.variance)
+        .sum();
+    0.5 * (shift.norm_squared() + walls)
+}
+
+/// First and second derivative of the objective along `step`.
+fn line(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> (f64, f64) {
+    let free = (shift.dot(step), step.norm_squared());
+    active(walls, x, shift).fold(free, |(slope, curvature), wall| {
+        let rate = wall.n.dot(step);
+        (
+            slope - wall.violation * rate / wall.variance,
+            curvature + rate * rate / wall.variance,
+        )
+    })
+}
