@@ -1,0 +1,168 @@
+"""Edits of one device's scene: checked, sent to the loop, acknowledged, written to disk, told."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from datetime import UTC, datetime
+from typing import Any, TypeVar
+
+from hapticd.events import EventLog
+from hapticd.problem import Problem
+from hapticd.scene import Scene, Wall, check_scene, check_wall, edit_fade_s, flatten
+from hapticd.scene_store import CorruptScene, SceneStore, StoredScene
+from hapticd.snapshot import Applied, SceneResult
+
+Send = Callable[[Mapping[str, Any], float], Awaitable[Applied | None]]
+"""Sends a flat scene with its fade time. None when no loop is there to take it."""
+
+OFFLINE_NOTE = "The device is offline: the scene is kept on disk and goes into force when the device is back."
+DRY_RUN_NOTE = "Nothing was changed: this was a dry run."
+
+T = TypeVar("T")
+
+
+class SceneEditor:
+    """One device's scene and its revisions. Edits come one after the other, each whole or not at all."""
+
+    def __init__(self, device_id: str, dof: int, store: SceneStore, events: EventLog, send: Send) -> None:
+        self._device_id = device_id
+        self._dof = dof
+        self._store = store
+        self._events = events
+        self._send = send
+        self._stored = self._load()
+        self._last_revision = self._stored.revision
+        self._editing = asyncio.Lock()
+        self._wall_ids = _wall_ids(self._stored.scene)
+
+    @property
+    def scene(self) -> Scene:
+        return self._stored.scene
+
+    @property
+    def revision(self) -> int:
+        return self._stored.revision
+
+    @property
+    def etag(self) -> str:
+        """The strong entity tag of the scene: its revision, quoted."""
+        return f'"{self.revision}"'
+
+    def wall_id(self, index: int) -> str | None:
+        """Id of the wall at this place of the flat scene of the present revision."""
+        return self._wall_ids[index] if 0 <= index < len(self._wall_ids) else None
+
+    async def replace(self, scene: Scene, *, if_match: str | None, dry_run: bool) -> SceneResult:
+        """Puts another scene in the place of this one."""
+        return await self.edit(lambda _: scene, if_match=if_match, dry_run=dry_run)
+
+    async def put_wall(self, wall: Wall, *, if_match: str | None, dry_run: bool, create_only: bool) -> SceneResult:
+        """Adds a wall, or replaces the one of this id unless ``create_only``."""
+        check_wall(wall, self._dof)
+
+        def put(scene: Scene) -> Scene:
+            if create_only and scene.wall(wall.id) is not None:
+                raise Problem("wall-exists", f"{self._device_id} has a wall {wall.id!r}.", device_id=self._device_id)
+            return scene.with_wall(wall)
+
+        return await self.edit(put, if_match=if_match, dry_run=dry_run)
+
+    async def delete_wall(self, wall_id: str, *, if_match: str | None, dry_run: bool) -> SceneResult:
+        """Takes a wall away."""
+
+        def delete(scene: Scene) -> Scene:
+            self.wall(wall_id)
+            return scene.without_wall(wall_id)
+
+        return await self.edit(delete, if_match=if_match, dry_run=dry_run)
+
+    def wall(self, wall_id: str) -> Wall:
+        """The wall of this id. ``Problem`` (wall-not-found) lists those there are."""
+        found = self.scene.wall(wall_id)
+        if found is None:
+            ids = [wall.id for wall in self.scene.walls]
+            detail = f"The scene of {self._device_id} has no wall {wall_id!r}."
+            raise Problem("wall-not-found", detail, device_id=self._device_id, allowed=ids)
+        return found
+
+    async def edit(self, change: Callable[[Scene], Scene], *, if_match: str | None, dry_run: bool) -> SceneResult:
+        """Replaces the scene by what ``change`` makes of it.
+
+        Order: check, send, acknowledge, disk, event. Once begun it is finished, also when the caller goes away,
+        so that loop and disk agree. Raises ``Problem``.
+        """
+        return await _finished(self._edit(change, if_match, dry_run))
+
+    async def send_present(self) -> Applied | None:
+        """Puts the present scene in force in a loop that does not have it. Raises ``Problem``."""
+        async with self._editing:
+            flat, _ = flatten(self.scene, self.revision, 0.0)
+            return await self._send(flat, 0.0)
+
+    async def _edit(self, change: Callable[[Scene], Scene], if_match: str | None, dry_run: bool) -> SceneResult:
+        async with self._editing:
+            self._check_match(if_match)
+            after = change(self.scene)
+            check_scene(after, self._dof)
+            if dry_run:
+                return SceneResult(
+                    scene=after, etag=self.etag, revision=self.revision, applied=None, dry_run=True, note=DRY_RUN_NOTE
+                )
+            return await self._put_in_force(after)
+
+    async def _put_in_force(self, after: Scene) -> SceneResult:
+        # A number is never used twice, not even after an edit that failed: it may have reached the loop.
+        self._last_revision += 1
+        fade_s = edit_fade_s(self.scene, after)
+        flat, wall_ids = flatten(after, self._last_revision, fade_s)
+        applied = await self._send(flat, fade_s)
+        self._stored = StoredScene(revision=self._last_revision, saved_utc=datetime.now(UTC), scene=after)
+        self._wall_ids = wall_ids
+        await self._save()
+        self._tell(applied)
+        note = OFFLINE_NOTE if applied is None else None
+        return SceneResult(scene=after, etag=self.etag, revision=self.revision, applied=applied, note=note)
+
+    def _check_match(self, if_match: str | None) -> None:
+        if if_match is None or if_match.strip() == "*":
+            return
+        if self.etag not in (tag.strip() for tag in if_match.split(",")):
+            detail = f"If-Match is {if_match}, the scene of {self._device_id} is at {self.etag}."
+            raise Problem("revision-stale", detail, device_id=self._device_id)
+
+    async def _save(self) -> None:
+        try:
+            await asyncio.to_thread(self._store.save, self._stored)
+        except OSError as error:
+            detail = f"The scene of {self._device_id}, revision {self.revision}, was not saved: {error}."
+            self._events.append("scene.not_saved", detail, device_id=self._device_id)
+            raise Problem("storage-failed", detail, device_id=self._device_id) from error
+
+    def _tell(self, applied: Applied | None) -> None:
+        self._events.append(
+            "scene.changed",
+            f"The scene of {self._device_id} is at revision {self.revision} with {len(self.scene.walls)} walls.",
+            device_id=self._device_id,
+            tick=None if applied is None else applied.tick,
+            t_mono_ns=None if applied is None else applied.t_mono_ns,
+            revision=self.revision,
+            walls=[wall.id for wall in self.scene.walls],
+        )
+
+    def _load(self) -> StoredScene:
+        try:
+            return self._store.load()
+        except CorruptScene as error:
+            message = f"The stored scene of {self._device_id} is of no use and was moved to {error.moved_to}; it is empty now."
+            self._events.append("scene.corrupt", message, device_id=self._device_id, why=str(error))
+            return error.stored
+
+
+def _wall_ids(scene: Scene) -> list[str]:
+    return [wall.id for wall in scene.walls if wall.enabled]
+
+
+async def _finished(work: Coroutine[Any, Any, T]) -> T:
+    """Awaits ``work``, which goes on to its end even when the waiting is cancelled."""
+    return await asyncio.shield(asyncio.create_task(work))
