@@ -6,6 +6,21 @@ use serde::{Deserialize, Serialize};
 /// Kinds of [`Injection`].
 pub const INJECTION_KINDS: usize = 8;
 
+/// Which fault an [`Injection`] is, without its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+#[allow(missing_docs)] // the variants are told at Injection
+pub enum InjectionKind {
+    Unplug,
+    Silence,
+    NotFinite,
+    EncoderJump,
+    EstopInput,
+    SensorSaturated,
+    AmplifierFault,
+    DropFrames,
+}
+
 /// A fault of the simulated hardware that lasts a while and then heals.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "type", rename_all = "snake_case")]
@@ -70,18 +85,18 @@ impl Injection {
         }
     }
 
-    /// Number of its kind, below [`INJECTION_KINDS`].
+    /// Which fault it is.
     #[must_use]
-    pub const fn kind(&self) -> u8 {
+    pub const fn kind(&self) -> InjectionKind {
         match self {
-            Self::Unplug { .. } => 0,
-            Self::Silence { .. } => 1,
-            Self::NotFinite { .. } => 2,
-            Self::EncoderJump { .. } => 3,
-            Self::EstopInput { .. } => 4,
-            Self::SensorSaturated { .. } => 5,
-            Self::AmplifierFault { .. } => 6,
-            Self::DropFrames { .. } => 7,
+            Self::Unplug { .. } => InjectionKind::Unplug,
+            Self::Silence { .. } => InjectionKind::Silence,
+            Self::NotFinite { .. } => InjectionKind::NotFinite,
+            Self::EncoderJump { .. } => InjectionKind::EncoderJump,
+            Self::EstopInput { .. } => InjectionKind::EstopInput,
+            Self::SensorSaturated { .. } => InjectionKind::SensorSaturated,
+            Self::AmplifierFault { .. } => InjectionKind::AmplifierFault,
+            Self::DropFrames { .. } => InjectionKind::DropFrames,
         }
     }
 
@@ -98,7 +113,7 @@ impl Injection {
     #[must_use]
     pub fn to_words(&self) -> [f64; SCRIPT_WORDS] {
         pack(
-            f64::from(self.kind()),
+            f64::from(self.kind() as u8),
             &[self.duration_s(), self.fraction()],
         )
     }
@@ -130,5 +145,56 @@ impl Injection {
         self.duration_s().is_finite()
             && self.duration_s() >= 0.0
             && (0.0..=1.0).contains(&self.fraction())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_survives_shared_memory() {
+        for kind in 0..INJECTION_KINDS {
+            let fraction = if kind == 7 { 0.25 } else { 0.0 };
+            let words = pack(kind as f64, &[1.5, fraction]);
+            let injection = Injection::from_words(&words).unwrap();
+            assert_eq!(injection.kind() as usize, kind);
+            assert_eq!(injection.to_words(), words);
+        }
+    }
+
+    #[test]
+    fn nonsense_in_shared_memory_is_no_injection() {
+        for numbers in [
+            [8.0, 1.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.5, 1.0, 0.0],
+            [1.0, f64::NAN, 0.0],
+            [7.0, 1.0, 1.5],
+        ] {
+            assert_eq!(
+                Injection::from_words(&pack(numbers[0], &numbers[1..])),
+                None,
+                "{numbers:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn json_is_tagged_and_strict() {
+        let parsed: Injection =
+            serde_json::from_str(r#"{"type": "drop_frames", "fraction": 0.1, "duration_s": 2.0}"#)
+                .unwrap();
+        assert_eq!(
+            parsed,
+            Injection::DropFrames {
+                fraction: 0.1,
+                duration_s: 2.0
+            }
+        );
+        assert!(serde_json::from_str::<Injection>(
+            r#"{"type": "unplug", "duration_s": 1, "how": 2}"#
+        )
+        .is_err());
     }
 }

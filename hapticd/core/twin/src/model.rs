@@ -7,6 +7,7 @@
 use hapticd_control::io::Axes;
 use serde::{Deserialize, Serialize};
 
+#[allow(clippy::large_enum_variant)] // read once at start, kept by value like every model
 /// The plant behind one device model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "type", rename_all = "snake_case")]

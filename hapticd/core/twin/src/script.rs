@@ -1,6 +1,7 @@
 //! What the operator's hand is told to do.
 
 use hapticd_control::io::Axes;
+use hapticd_control::linear::V3;
 use serde::{Deserialize, Serialize};
 
 /// Words of a [`Script`] or an [`Injection`](crate::Injection) in shared memory.
@@ -159,6 +160,27 @@ impl Script {
         };
         numbers_valid && self.to_words().iter().all(|word| word.is_finite())
     }
+
+    /// The script with every vector kept to the coordinates where `mask` is 1 and not 0.
+    #[must_use]
+    pub(crate) fn within(mut self, mask: &V3) -> Self {
+        let keep = |v: &mut Axes| *v = core::array::from_fn(|i| v[i] * mask[i]);
+        match &mut self {
+            Self::Free | Self::Hold { .. } => {}
+            Self::Follow { target_m } => keep(target_m),
+            Self::Push { direction, .. } => keep(direction),
+            Self::Stroke { center_m, axis, .. } => {
+                keep(center_m);
+                keep(axis);
+            }
+            Self::MinimumJerk { from_m, to_m, .. } => {
+                keep(from_m);
+                keep(to_m);
+            }
+            Self::Clamp { position_m } => keep(position_m),
+        }
+        self
+    }
 }
 
 fn has_length(direction: &Axes) -> bool {
@@ -176,4 +198,68 @@ pub(crate) fn pack(tag: f64, numbers: &[f64]) -> [f64; SCRIPT_WORDS] {
 /// The tag as a small integer; `None` when it is not one.
 pub(crate) fn tag_of(word: f64) -> Option<u8> {
     (0..=u8::MAX).find(|tag| f64::from(*tag) == word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCRIPTS: [Script; 8] = [
+        Script::Free,
+        Script::Hold { stiff: false },
+        Script::Hold { stiff: true },
+        Script::Follow {
+            target_m: [0.1, 0.2, 0.3],
+        },
+        Script::Push {
+            direction: [0.0, -1.0, 0.0],
+            force_n: 5.0,
+            speed_m_per_s: 0.2,
+        },
+        Script::Stroke {
+            center_m: [0.1, 0.2, 0.3],
+            axis: [1.0, 0.0, 2.0],
+            amplitude_m: 0.02,
+            frequency_hz: 2.0,
+        },
+        Script::MinimumJerk {
+            from_m: [0.1, 0.2, 0.3],
+            to_m: [0.4, 0.5, 0.6],
+            duration_s: 0.75,
+        },
+        Script::Clamp {
+            position_m: [0.1, 0.2, 0.3],
+        },
+    ];
+
+    #[test]
+    fn every_script_survives_shared_memory_and_json() {
+        for script in SCRIPTS {
+            assert_eq!(Script::from_words(&script.to_words()), Some(script));
+            let json = serde_json::to_string(&script).unwrap();
+            assert_eq!(serde_json::from_str::<Script>(&json).unwrap(), script);
+        }
+    }
+
+    #[test]
+    fn nonsense_in_shared_memory_is_no_script() {
+        let invalid = [
+            pack(7.0, &[]),
+            pack(-1.0, &[]),
+            pack(f64::NAN, &[]),
+            pack(2.0, &[f64::INFINITY, 0.0, 0.0]),
+            pack(3.0, &[0.0, 0.0, 0.0, 5.0, 0.1]),
+            pack(3.0, &[1.0, 0.0, 0.0, 5.0, 0.0]),
+            pack(5.0, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        ];
+        for words in invalid {
+            assert_eq!(Script::from_words(&words), None, "{words:?}");
+        }
+    }
+
+    #[test]
+    fn an_unknown_field_of_a_script_is_refused() {
+        let json = r#"{"type": "follow", "target_m": [0, 0, 0], "speed": 1}"#;
+        assert!(serde_json::from_str::<Script>(json).is_err());
+    }
 }

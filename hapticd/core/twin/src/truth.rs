@@ -23,6 +23,6 @@ pub struct Truth {
     pub motor_torque_nm: Axes,
     /// Torque the brakes and their drag give at the joints, N·m, signed.
     pub brake_torque_nm: Axes,
-    /// Winding temperatures; ambient for torque drives, °C.
+    /// Winding temperatures; zero for torque drives, °C.
     pub winding_c: Axes,
 }
