@@ -44,7 +44,8 @@ class Channel:
     async def request(self, request: Mapping[str, Any]) -> Ack:
         """Sends one request and waits for its acknowledgement, whatever it says.
 
-        Raises ``Problem``: servo-busy, servo-silent after ``ACK_TIMEOUT_S``, device-offline when the servo goes.
+        Raises ``Problem``: servo-busy, servo-silent after ``ACK_TIMEOUT_S``, device-offline when the servo
+        goes.
         """
         future: asyncio.Future[Ack] = asyncio.get_running_loop().create_future()
         request_id = self._send(request)

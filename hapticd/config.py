@@ -1,23 +1,24 @@
 """The configuration: one strict TOML file, overridden by ``HAPTICD_…`` variables.
 
-``HAPTICD_API__PORT=9000`` overrides ``port`` of ``[api]``. Every key is read; one that nobody knows is an error
-that names it, with the nearest key that exists.
+``HAPTICD_API__PORT=9000`` overrides ``port`` of ``[api]``. Every key is read; one that nobody knows is an
+error that names it, with the nearest key that exists.
 """
 
 from __future__ import annotations
 
 import os
-import tempfile
 import tomllib
 from collections.abc import Mapping
-from difflib import get_close_matches
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
-from hapticd.problem import Problem, json_pointer
+from hapticd.config_problem import Sections, config_problem, nearest
+from hapticd.places import default_runtime_dir, default_state_dir, xdg
+from hapticd.problem import Problem
 
 ENV_PREFIX = "HAPTICD_"
 CONFIG_VARIABLE = "HAPTICD_CONFIG"
@@ -33,17 +34,28 @@ class Section(BaseModel):
 
 
 class ApiConfig(Section):
-    """``[api]``: where the daemon listens."""
+    """``[api]``: where the daemon listens. Loop-back alone: whoever reaches the port may move the devices."""
 
     host: str = "127.0.0.1"
     port: int = Field(8420, ge=0, le=65535, description="0 takes any free port")
+
+    @field_validator("host")
+    @classmethod
+    def _loop_back(cls, host: str) -> str:
+        if host != "localhost" and not _is_loop_back(host):
+            raise ValueError(
+                f"{host!r} is not a loop-back address; the API has no tokens, so use 127.0.0.1 or ::1."
+            )
+        return host
 
 
 class PathsConfig(Section):
     """``[paths]``: where the daemon keeps things. ``~`` is the home directory."""
 
-    state_dir: Path = Field(default_factory=lambda: default_state_dir(), description="Scenes and events")
-    runtime_dir: Path = Field(default_factory=lambda: default_runtime_dir(), description="Shared memory; best on a tmpfs")
+    state_dir: Path = Field(default_factory=default_state_dir, description="Scenes and events")
+    runtime_dir: Path = Field(
+        default_factory=default_runtime_dir, description="Shared memory; best on a tmpfs"
+    )
 
     @field_validator("state_dir", "runtime_dir")
     @classmethod
@@ -91,7 +103,11 @@ class Config(BaseSettings):
     """Everything the daemon is told. See :func:`load_config`."""
 
     model_config = SettingsConfigDict(
-        env_prefix=ENV_PREFIX, env_nested_delimiter="__", extra="forbid", frozen=True, nested_model_default_partial_update=True
+        env_prefix=ENV_PREFIX,
+        env_nested_delimiter="__",
+        extra="forbid",
+        frozen=True,
+        nested_model_default_partial_update=True,
     )
 
     api: ApiConfig = ApiConfig()
@@ -109,20 +125,30 @@ class Config(BaseSettings):
 
     @classmethod
     def settings_customise_sources(
-        cls, settings_cls: type[BaseSettings], init_settings: PydanticBaseSettingsSource, env_settings: PydanticBaseSettingsSource,
-        dotenv_settings: PydanticBaseSettingsSource, file_secret_settings: PydanticBaseSettingsSource,
+        cls,
+        settings_cls: type[BaseSettings],
+        init_settings: PydanticBaseSettingsSource,
+        env_settings: PydanticBaseSettingsSource,
+        dotenv_settings: PydanticBaseSettingsSource,
+        file_secret_settings: PydanticBaseSettingsSource,
     ) -> tuple[PydanticBaseSettingsSource, ...]:
         """The environment wins over the file, which arrives as keyword arguments."""
         return env_settings, init_settings
 
     def on_twins(self) -> Self:
         """The same devices, each with its twin in place of the hardware."""
-        twins = tuple(device.model_copy(update={"driver": TWIN_DRIVER, "options": {}}) for device in self.devices)
+        twins = tuple(
+            device.model_copy(update={"driver": TWIN_DRIVER, "options": {}}) for device in self.devices
+        )
         return self.model_copy(update={"devices": twins})
 
 
+SECTIONS: Sections = {"": Config, "api": ApiConfig, "paths": PathsConfig, "devices": DeviceConfig}
+"""The model of each table, the file itself under the empty name."""
+
+
 def load_config(path: Path | None = None) -> Config:
-    """The configuration in ``path``, else in ``$HAPTICD_CONFIG``, else in the first default place, else the twins.
+    """The configuration in ``path``, else in ``$HAPTICD_CONFIG``, else in a default place, else two twins.
 
     Raises ``Problem`` (config-invalid), which names file and key.
     """
@@ -132,28 +158,23 @@ def load_config(path: Path | None = None) -> Config:
     try:
         return Config(**table)
     except ValidationError as error:
-        raise _config_problem(error, file) from None
+        raise config_problem(error, file, SECTIONS) from None
 
 
-def default_state_dir() -> Path:
-    """``$XDG_STATE_HOME/hapticd``, by default ``~/.local/state/hapticd``."""
-    return _xdg("XDG_STATE_HOME", "~/.local/state") / "hapticd"
-
-
-def default_runtime_dir() -> Path:
-    """``$XDG_RUNTIME_DIR/hapticd``, else a directory of this user under the temporary one."""
-    runtime = os.environ.get("XDG_RUNTIME_DIR")
-    return Path(runtime) / "hapticd" if runtime else Path(tempfile.gettempdir()) / f"hapticd-{os.getuid()}"
-
-
-def _xdg(variable: str, default: str) -> Path:
-    return Path(os.environ.get(variable) or default).expanduser()
+def _is_loop_back(host: str) -> bool:
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:
+        return False
 
 
 def _default_file() -> Path | None:
     if named := os.environ.get(CONFIG_VARIABLE):
         return Path(named)
-    places = (_xdg("XDG_CONFIG_HOME", "~/.config") / "hapticd" / "config.toml", Path("/etc/hapticd/config.toml"))
+    places = (
+        xdg("XDG_CONFIG_HOME", "~/.config") / "hapticd" / "config.toml",
+        Path("/etc/hapticd/config.toml"),
+    )
     return next((place for place in places if place.is_file()), None)
 
 
@@ -170,28 +191,5 @@ def _refuse_unknown_variables(environment: Mapping[str, str]) -> None:
     known = {ENV_PREFIX + name.upper() for name in Config.model_fields} | {CONFIG_VARIABLE}
     for variable in environment:
         if variable.startswith(ENV_PREFIX) and variable.split("__")[0] not in known:
-            raise Problem("config-invalid", f"The environment variable {variable} is unknown.{_nearest(variable, known)}")
-
-
-def _config_problem(error: ValidationError, file: Path | None) -> Problem:
-    where = f"{file}: " if file else "From the environment: "
-    lines = [_config_line(entry["loc"], entry["type"], entry["msg"]) for entry in error.errors()]
-    return Problem("config-invalid", where + " ".join(lines), pointer=json_pointer(error.errors()[0]["loc"]))
-
-
-def _config_line(path: tuple[int | str, ...], kind: str, message: str) -> str:
-    key = ".".join(str(part) for part in path)
-    if kind == "extra_forbidden":
-        return f"{key} is not a key.{_nearest(str(path[-1]), _keys_beside(path))}"
-    return f"{key}: {message.removeprefix('Value error, ').rstrip('.')}."
-
-
-def _keys_beside(path: tuple[int | str, ...]) -> set[str]:
-    sections: dict[str | int, type[BaseModel]] = {"api": ApiConfig, "paths": PathsConfig, "devices": DeviceConfig}
-    owner = sections.get(path[0], Config) if len(path) > 1 else Config
-    return set(owner.model_fields)
-
-
-def _nearest(name: str, known: set[str]) -> str:
-    matches = get_close_matches(name, known, n=1)
-    return f" Did you mean {matches[0]}?" if matches else f" Known: {', '.join(sorted(known))}."
+            detail = f"The environment variable {variable} is unknown.{nearest(variable, known)}"
+            raise Problem("config-invalid", detail)

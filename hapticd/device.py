@@ -2,25 +2,38 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hapticd.channel import Channel, Link
 from hapticd.config import DeviceConfig
+from hapticd.device_report import Attachment, DeviceReporter, granted_walls, in_force
 from hapticd.events import EventLog
+from hapticd.frame import Records
 from hapticd.hand import HandScript, Hold, flat_script
 from hapticd.injection import Injection
+from hapticd.misses import Misses
 from hapticd.model import Model
 from hapticd.problem import Problem
-from hapticd.realtime import RealtimeReport
+from hapticd.reading import Reading, records_of
+from hapticd.realtime import Miss, RealtimeReport, realtime_report
+from hapticd.reasons import fault_bits, faults
 from hapticd.record import record_dtype
+from hapticd.refusal import refusal
 from hapticd.scene import Scene, Wall
 from hapticd.scene_editor import SceneEditor
 from hapticd.scene_store import SceneStore
-from hapticd.snapshot import Applied, DeviceSnapshot, SceneResult
+from hapticd.servo_event import message_of
+from hapticd.snapshot import DESIRED_STATES, Applied, DeviceSnapshot, SceneResult
+
+if TYPE_CHECKING:
+    from hapticd._core import ServoEvent, ServoStatus
+
+NOT_STARTED = "Its servo has not started yet."
 
 
 @dataclass(frozen=True)
@@ -30,13 +43,16 @@ class TickBatch:
     ``first`` is the number of its first tick, ``lost`` the ticks between ``since`` and it that are gone.
     """
 
-    records: np.ndarray[Any, np.dtype[np.void]]
+    records: Records
     first: int
     lost: int
 
 
 class Device:
-    """One configured device. Every coroutine raises ``Problem`` where the device refuses."""
+    """One configured device. Every coroutine raises ``Problem`` where the device refuses.
+
+    Belongs to the event loop's thread. The supervisor attaches and detaches the link to its servo.
+    """
 
     def __init__(self, config: DeviceConfig, model: Model, store: SceneStore, events: EventLog) -> None:
         self.device_id: str = config.id
@@ -45,63 +61,214 @@ class Device:
         self.driver: str = config.driver
         self.is_twin: bool = config.is_twin
         self.rate_hz: float = config.rate_hz
+        self._reporter = DeviceReporter(config, model)
+        self._events = events
+        self._editor = SceneEditor(config.id, model.dof, store, events, self._send_scene)
+        self._hand: HandScript = Hold(type="hold")
+        self._link: Link | None = None
+        self._channel: Channel | None = None
+        self._why_offline: str | None = NOT_STARTED
+        self._attachments = 0
+        self._misses = Misses()
+
+    # State -------------------------------------------------------------------------------------
 
     def snapshot(self) -> DeviceSnapshot:
         """Everything about the device at this instant."""
+        attachment = Attachment(self._why_offline, self._attachments, self._pid)
+        return self._reporter.snapshot(self._editor, attachment, self._reading(), self._status())
 
     async def set_desired(self, desired: str) -> Applied:
-        """Asks for ``enabled``, ``disabled`` or ``paused``. ``Problem``: interlock-open, state-refused, device-offline."""
+        """Asks for ``enabled``, ``disabled`` or ``paused``.
+
+        ``Problem``: interlock-open, state-refused, device-offline.
+        """
+        if desired not in DESIRED_STATES:
+            raise Problem(
+                "invalid-document", f"{desired!r} is not a state one can ask for.", allowed=DESIRED_STATES
+            )
+        limits = self._reporter.limits
+        fade_s = limits.ramp_s if desired == "enabled" else limits.fade_s
+        return await self._apply({"type": "desired", "desired": desired}, fade_s)
 
     async def engage_estop(self) -> Applied:
-        """Latches the E-stop. Idempotent."""
+        """Latches the E-stop: outputs are zero from that tick on. Idempotent."""
+        return await self._apply({"type": "estop"})
 
     async def acknowledge_estop(self) -> Applied:
-        """Clears the latched E-stop, if its source is gone."""
+        """Clears the latched E-stop. ``Problem`` (interlock-open) while its input is open."""
+        return await self._apply({"type": "estop_ack"})
 
     async def acknowledge_fault(self, slug: str) -> Applied:
-        """Clears one latched fault, if its cause is gone. ``Problem``: fault-not-found."""
+        """Clears one latched fault; it latches anew while its cause lasts. ``Problem``: fault-not-found."""
+        reading = self._reading()
+        latched = [fault.id for fault in faults(reading.integer("faults"))] if reading else []
+        if slug not in latched:
+            detail = f"{self.device_id} has not latched a fault {slug!r}."
+            raise Problem("fault-not-found", detail, device_id=self.device_id, allowed=latched)
+        return await self._apply({"type": "fault_ack", "faults": fault_bits()[slug]})
+
+    # Scene -------------------------------------------------------------------------------------
 
     @property
-    def scene(self) -> Scene: ...
-    @property
-    def scene_etag(self) -> str: ...
+    def scene(self) -> Scene:
+        return self._editor.scene
 
-    async def replace_scene(
-        self, scene: Scene, *, if_match: str | None = None, dry_run: bool = False
-    ) -> SceneResult:
-        """Puts another scene in force at one tick, faded so that no force steps."""
+    @property
+    def scene_etag(self) -> str:
+        return self._editor.etag
 
     async def edit_scene(
         self, change: Callable[[Scene], Scene], *, if_match: str | None = None, dry_run: bool = False
     ) -> SceneResult:
-        """Puts what ``change`` makes of the present scene in force; no other edit comes between (for PATCH)."""
+        """Puts what ``change`` makes of the present scene in force; no other edit comes between."""
+        return self._granted(await self._editor.edit(change, if_match=if_match, dry_run=dry_run))
+
+    async def replace_scene(
+        self, scene: Scene, *, if_match: str | None = None, dry_run: bool = False
+    ) -> SceneResult:
+        """Puts another scene in force, whole at one tick, faded so that no force steps."""
+        return self._granted(await self._editor.replace(scene, if_match=if_match, dry_run=dry_run))
+
+    def get_wall(self, wall_id: str) -> Wall:
+        """The wall of this id. ``Problem``: wall-not-found."""
+        return self._editor.wall(wall_id)
 
     async def put_wall(
         self, wall: Wall, *, if_match: str | None = None, dry_run: bool = False, create_only: bool = False
     ) -> SceneResult:
-        """Adds a wall, or replaces its namesake unless ``create_only``."""
+        """Adds a wall, or replaces its namesake. ``Problem`` (wall-exists) instead when ``create_only``."""
+        result = await self._editor.put_wall(
+            wall, if_match=if_match, dry_run=dry_run, create_only=create_only
+        )
+        return self._granted(result)
 
-    async def delete_wall(self, wall_id: str, *, if_match: str | None = None, dry_run: bool = False) -> SceneResult:
+    async def delete_wall(
+        self, wall_id: str, *, if_match: str | None = None, dry_run: bool = False
+    ) -> SceneResult:
         """Takes a wall away. ``Problem``: wall-not-found."""
+        return self._granted(await self._editor.delete_wall(wall_id, if_match=if_match, dry_run=dry_run))
 
-    def get_wall(self, wall_id: str) -> Wall:
-        """The wall of this id. ``Problem``: wall-not-found."""
+    # Twin --------------------------------------------------------------------------------------
 
     @property
     def hand(self) -> HandScript:
         """What the twin's hand was last told. ``Problem``: not-a-twin."""
+        self._require_twin()
+        return self._hand
 
     async def set_hand(self, script: HandScript) -> Applied:
         """Tells the twin's hand what to do. ``Problem``: not-a-twin, dimension-mismatch."""
+        self._require_twin()
+        applied = await self._apply({"type": "hand", "script": flat_script(script, self.dof)})
+        self._hand = script
+        return applied
 
     async def inject(self, injection: Injection) -> Applied:
         """Injects a fault into the twin. ``Problem``: not-a-twin."""
+        self._require_twin()
+        return await self._apply({"type": "inject", "injection": injection.model_dump()})
+
+    # Ticks -------------------------------------------------------------------------------------
 
     def realtime(self) -> RealtimeReport | None:
         """Scheduling really obtained, histograms, misses. None before the servo's first status."""
+        status = self._status()
+        return realtime_report(self.device_id, self.rate_hz, status, self._misses.recent) if status else None
 
     def head(self) -> int:
         """Ticks published so far; 0 while offline."""
+        return self._link.head() if self._link else 0
 
     def read(self, since: int, limit: int) -> TickBatch:
         """At most ``limit`` ticks from ``since`` on. Empty while offline."""
+        if self._link is None:
+            return TickBatch(np.empty(0, record_dtype()), since, 0)
+        raw, first, lost = self._link.read(since, limit)
+        return TickBatch(records_of(raw), first, lost)
+
+    # Servo -------------------------------------------------------------------------------------
+
+    def attach(self, link: Link) -> None:
+        """Takes a servo's link into use."""
+        self._link = link
+        self._channel = Channel(self.device_id, link)
+        self._why_offline = None
+        self._attachments += 1
+        self._misses = Misses()
+
+    def detach(self, why: str) -> None:
+        """Lets go of the link: the device is offline, and waiting requests end with a problem."""
+        if self._channel is not None:
+            self._channel.close(why)
+        self._link, self._channel = None, None
+        self._why_offline = why
+
+    def explain_offline(self, why: str) -> None:
+        """Says why the device stays offline."""
+        self._why_offline = why
+
+    async def restore(self) -> None:
+        """Gives a servo that was just attached the hand and the scene it does not know."""
+        if self.is_twin:
+            await self.set_hand(self._hand)
+        await self._editor.send_present()
+
+    @property
+    def scene_in_force(self) -> bool:
+        """Whether the loop renders the present revision."""
+        return in_force(self._editor, self._reading())
+
+    def tell_servo_events(self) -> None:
+        """Moves what the servo told into the event log."""
+        for event in self._link.events() if self._link else ():
+            self._tell(event)
+        if summary := self._misses.summary(time.monotonic_ns()):
+            self._events.append("servo.miss", f"{self.device_id} {summary}", device_id=self.device_id)
+
+    def _tell(self, event: ServoEvent) -> None:
+        if event["kind"] == "miss":
+            self._misses.note(Miss.of(event))
+            return
+        self._events.append(
+            f"servo.{event['kind']}",
+            message_of(self.device_id, event),
+            device_id=self.device_id,
+            tick=event["tick"],
+            t_mono_ns=event["t_mono_ns"],
+            details=event["details"],
+        )
+
+    def _require_twin(self) -> None:
+        if not self.is_twin:
+            detail = f"{self.device_id} is driven by {self.driver}, not by a twin."
+            raise Problem("not-a-twin", detail, device_id=self.device_id)
+
+    @property
+    def _pid(self) -> int | None:
+        return self._link.info()["pid"] if self._link else None
+
+    def _granted(self, result: SceneResult) -> SceneResult:
+        return result.model_copy(update={"walls": granted_walls(result.scene, self._reading())})
+
+    def _reading(self) -> Reading | None:
+        return Reading.of(self._link.latest()) if self._link else None
+
+    def _status(self) -> ServoStatus | None:
+        return self._link.status() if self._link else None
+
+    async def _apply(self, request: Mapping[str, Any], fade_s: float = 0.0) -> Applied:
+        if self._channel is None:
+            detail = f"{self.device_id} is offline. {self._why_offline}"
+            raise Problem("device-offline", detail, device_id=self.device_id, current_state="offline")
+        ack = await self._channel.request(request)
+        if ack["result"] != "applied":
+            raise refusal(self.device_id, request["type"], ack)
+        reading = self._reading()
+        clamped = reading.limits if reading else []
+        return Applied(tick=ack["tick"], t_mono_ns=ack["t_mono_ns"], fade_s=fade_s, clamped=clamped)
+
+    async def _send_scene(self, flat: Mapping[str, Any], fade_s: float) -> Applied | None:
+        if self._channel is None:
+            return None
+        return await self._apply({"type": "scene", "scene": flat}, fade_s)

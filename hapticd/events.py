@@ -6,14 +6,14 @@ import asyncio
 import itertools
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import structlog
-from pydantic import ValidationError
+from pydantic import Field, ValidationError
 
 from hapticd.snapshot import Report
 
@@ -30,7 +30,8 @@ log = structlog.get_logger(__name__)
 class Event(Report):
     """Something that happened. ``id`` rises by one with each event, also across restarts.
 
-    ``kind`` is one of the words in docs/events.md, ``tick`` and ``t_mono_ns`` are the loop's where it was the loop.
+    ``kind`` says what, ``tick`` and ``t_mono_ns`` are the loop's where it was the
+    loop.
     """
 
     id: int
@@ -40,7 +41,7 @@ class Event(Report):
     message: str
     device_id: str | None = None
     tick: int | None = None
-    details: dict[str, Any] = {}
+    details: dict[str, Any] = Field(default_factory=dict)
 
 
 class EventFeed:
@@ -90,7 +91,7 @@ class EventLog:
         device_id: str | None = None,
         tick: int | None = None,
         t_mono_ns: int | None = None,
-        **details: Any,
+        details: Mapping[str, Any] | None = None,
     ) -> Event:
         """Notes an event and tells every subscriber. A disk that refuses it is logged, never raised."""
         event = Event(
@@ -101,7 +102,7 @@ class EventLog:
             message=message,
             device_id=device_id,
             tick=tick,
-            details=details,
+            details=dict(details or {}),
         )
         self._recent.append(event)
         self._write(event)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any
 
-import msgpack
+import msgpack  # type: ignore[import-untyped]  # it ships no types
 import numpy as np
 import orjson
 
@@ -15,8 +15,9 @@ Records = np.ndarray[Any, np.dtype[np.void]]
 class Frame:
     """Columns of one or more consecutive ticks.
 
-    ``tick`` and ``t_mono_ns`` are those of the first tick, ``count`` the number of ticks, ``lost`` the ticks before
-    the first that the ring no longer had. A ``latest`` frame holds one tick, and its values are not in lists.
+    ``tick`` and ``t_mono_ns`` are those of the first tick, ``count`` the number of ticks, ``lost`` the ticks
+    before the first that the ring no longer had. A ``latest`` frame holds one tick, and its values are not in
+    lists.
     """
 
     def __init__(self, records: Records, names: tuple[str, ...], *, latest: bool, lost: int) -> None:
@@ -42,7 +43,7 @@ class Frame:
     @cached_property
     def msgpack(self) -> bytes:
         """``values`` as MessagePack."""
-        return msgpack.packb(self.values)
+        return bytes(msgpack.packb(self.values))
 
     def _shown(self, column: np.ndarray[Any, Any]) -> Any:
         return column[0] if self._latest else column
@@ -56,4 +57,6 @@ def _column(records: Records, name: str) -> np.ndarray[Any, Any]:
 def _plain(column: Any) -> Any:
     if np.isfinite(column).all():
         return column.tolist()
-    return np.where(np.isfinite(column), column, None).tolist()
+    holed = np.asarray(column, dtype=object)
+    holed[~np.isfinite(column)] = None
+    return holed.tolist()

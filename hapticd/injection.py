@@ -14,13 +14,20 @@ DURATION_MAX_S = 60.0
 class Outage(Document):
     """A fault of the simulated hardware that lasts a while and then heals.
 
-    ``unplug``: the device is gone. ``silence``: no frame arrives, commands still act. ``not_finite``: measured forces
-    are NaN. ``encoder_jump``: the first encoder reads half a radian too much. ``estop_input``: the E-stop input opens.
-    ``sensor_saturated``: the force sensor is at the end of its range. ``amplifier_fault``: an amplifier gives nothing.
+    ``unplug``: the device is gone. ``silence``: no frame arrives, commands still act. ``not_finite``:
+    measured forces are NaN. ``encoder_jump``: the first encoder reads half a radian too much.
+    ``estop_input``: the E-stop input opens. ``sensor_saturated``: the force sensor is at the end of its
+    range. ``amplifier_fault``: an amplifier gives nothing.
     """
 
     type: Literal[
-        "unplug", "silence", "not_finite", "encoder_jump", "estop_input", "sensor_saturated", "amplifier_fault"
+        "unplug",
+        "silence",
+        "not_finite",
+        "encoder_jump",
+        "estop_input",
+        "sensor_saturated",
+        "amplifier_fault",
     ]
     duration_s: float = Field(0.5, ge=0.0, le=DURATION_MAX_S)
 

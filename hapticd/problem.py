@@ -18,8 +18,9 @@ class Problem(Exception):
     """A refusal or a failure that a caller can act on.
 
     ``slug`` is a key of ``PROBLEM_TYPES``; ``detail`` says what happened this time. ``pointer`` is the JSON
-    pointer (RFC 6901) of the offending field, ``allowed`` what would have been accepted instead, ``interlocks``
-    the open interlocks of a refused change of state, ``errors`` every offending field of a refused document.
+    pointer (RFC 6901) of the offending field, ``allowed`` what would have been accepted instead,
+    ``interlocks`` the open interlocks of a refused change of state, ``errors`` every offending field of a
+    refused document.
 
     Raises ``KeyError`` when the slug is not registered.
     """
@@ -92,13 +93,20 @@ def invalid_document(
     inside: Sequence[str | int] = (),
     device_id: str | None = None,
 ) -> Problem:
-    """The problem for a document that a model refused: the first offending field, and all of them in ``errors``.
+    """The problem for a document that a model refused.
 
-    ``error`` is pydantic's error or its list of errors; ``inside`` is where the document lies in a larger one.
+    It points at the first offending field and lists all of them in ``errors``.
+
+    ``error`` is pydantic's error or its list of errors; ``inside`` is where the document lies in a larger
+    one.
     """
     found = error.errors() if isinstance(error, ValidationError) else error
     errors = [
-        {"pointer": json_pointer((*inside, *entry["loc"])), "message": _message(entry), "kind": str(entry["type"])}
+        {
+            "pointer": json_pointer((*inside, *entry["loc"])),
+            "message": _message(entry),
+            "kind": str(entry["type"]),
+        }
         for entry in found
     ]
     first = errors[0]

@@ -28,7 +28,9 @@ NORMAL_TOLERANCE = 1e-3
 Identifier = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_.-]{0,62}$")]
 Coordinate = Annotated[float, Field(ge=-COORDINATE_MAX_M, le=COORDINATE_MAX_M)]
 Point = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=AXES), Strict(False)]
-Direction = Annotated[tuple[Annotated[float, Field(ge=-2, le=2)], ...], Field(min_length=2, max_length=AXES), Strict(False)]
+Direction = Annotated[
+    tuple[Annotated[float, Field(ge=-2, le=2)], ...], Field(min_length=2, max_length=AXES), Strict(False)
+]
 
 
 class Document(BaseModel):
@@ -61,7 +63,7 @@ class Plane(Document):
     def _one_dimension(self) -> Self:
         if len(self.point_m) != len(self.normal):
             raise ValueError(
-                f"point_m has {len(self.point_m)} coordinates and normal has {len(self.normal)}; they must agree."
+                f"point_m has {len(self.point_m)} coordinates, normal {len(self.normal)}; they must agree."
             )
         return self
 
@@ -90,10 +92,12 @@ class Scene(Document):
         "transpose", description="Joint mapping: transpose is isotropic (WN eq. 23, 24), inverse is WN eq. 18"
     )
     stiffness: Literal["pose", "workspace"] = Field(
-        "pose", description="k_c: the largest bound of the present pose, or one constant for the whole workspace"
+        "pose",
+        description="k_c: the largest bound of the present pose, or one constant for the whole workspace",
     )
     allocation: Literal["motor_only", "motor_and_brake", "brake_only"] = Field(
-        "motor_and_brake", description="Which actuators share the torque; without brakes the motors take it all"
+        "motor_and_brake",
+        description="Which actuators share the torque; without brakes the motors take it all",
     )
     walls: Annotated[tuple[Wall, ...], Field(max_length=MAX_WALLS), Strict(False)] = ()
     note: Annotated[str, Field(max_length=500)] | None = None
@@ -126,7 +130,9 @@ class Scene(Document):
         """The scene with other walls. ``Problem`` when there are too many."""
         if len(walls) > MAX_WALLS:
             raise Problem(
-                "too-many-walls", f"The scene would have {len(walls)} walls, {MAX_WALLS} is the most.", pointer="/walls"
+                "too-many-walls",
+                f"The scene would have {len(walls)} walls, {MAX_WALLS} is the most.",
+                pointer="/walls",
             )
         return self.model_copy(update={"walls": walls})
 

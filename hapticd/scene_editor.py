@@ -57,13 +57,17 @@ class SceneEditor:
         """Puts another scene in the place of this one."""
         return await self.edit(lambda _: scene, if_match=if_match, dry_run=dry_run)
 
-    async def put_wall(self, wall: Wall, *, if_match: str | None, dry_run: bool, create_only: bool) -> SceneResult:
+    async def put_wall(
+        self, wall: Wall, *, if_match: str | None, dry_run: bool, create_only: bool
+    ) -> SceneResult:
         """Adds a wall, or replaces the one of this id unless ``create_only``."""
         check_wall(wall, self._dof)
 
         def put(scene: Scene) -> Scene:
             if create_only and scene.wall(wall.id) is not None:
-                raise Problem("wall-exists", f"{self._device_id} has a wall {wall.id!r}.", device_id=self._device_id)
+                raise Problem(
+                    "wall-exists", f"{self._device_id} has a wall {wall.id!r}.", device_id=self._device_id
+                )
             return scene.with_wall(wall)
 
         return await self.edit(put, if_match=if_match, dry_run=dry_run)
@@ -86,11 +90,13 @@ class SceneEditor:
             raise Problem("wall-not-found", detail, device_id=self._device_id, allowed=ids)
         return found
 
-    async def edit(self, change: Callable[[Scene], Scene], *, if_match: str | None, dry_run: bool) -> SceneResult:
+    async def edit(
+        self, change: Callable[[Scene], Scene], *, if_match: str | None, dry_run: bool
+    ) -> SceneResult:
         """Replaces the scene by what ``change`` makes of it.
 
-        Order: check, send, acknowledge, disk, event. Once begun it is finished, also when the caller goes away,
-        so that loop and disk agree. Raises ``Problem``.
+        Order: check, send, acknowledge, disk, event. Once begun it is finished, also when the caller goes
+        away, so that loop and disk agree. Raises ``Problem``.
         """
         return await _finished(self._edit(change, if_match, dry_run))
 
@@ -100,14 +106,21 @@ class SceneEditor:
             flat, _ = flatten(self.scene, self.revision, 0.0)
             return await self._send(flat, 0.0)
 
-    async def _edit(self, change: Callable[[Scene], Scene], if_match: str | None, dry_run: bool) -> SceneResult:
+    async def _edit(
+        self, change: Callable[[Scene], Scene], if_match: str | None, dry_run: bool
+    ) -> SceneResult:
         async with self._editing:
             self._check_match(if_match)
             after = change(self.scene)
             check_scene(after, self._dof)
             if dry_run:
                 return SceneResult(
-                    scene=after, etag=self.etag, revision=self.revision, applied=None, dry_run=True, note=DRY_RUN_NOTE
+                    scene=after,
+                    etag=self.etag,
+                    revision=self.revision,
+                    applied=None,
+                    dry_run=True,
+                    note=DRY_RUN_NOTE,
                 )
             return await self._put_in_force(after)
 
@@ -142,20 +155,20 @@ class SceneEditor:
     def _tell(self, applied: Applied | None) -> None:
         self._events.append(
             "scene.changed",
-            f"The scene of {self._device_id} is at revision {self.revision} with {len(self.scene.walls)} walls.",
+            f"{self._device_id} has scene revision {self.revision} with {len(self.scene.walls)} walls.",
             device_id=self._device_id,
             tick=None if applied is None else applied.tick,
             t_mono_ns=None if applied is None else applied.t_mono_ns,
-            revision=self.revision,
-            walls=[wall.id for wall in self.scene.walls],
+            details={"revision": self.revision, "walls": [wall.id for wall in self.scene.walls]},
         )
 
     def _load(self) -> StoredScene:
         try:
             return self._store.load()
         except CorruptScene as error:
-            message = f"The stored scene of {self._device_id} is of no use and was moved to {error.moved_to}; it is empty now."
-            self._events.append("scene.corrupt", message, device_id=self._device_id, why=str(error))
+            message = f"The stored scene of {self._device_id} is of no use; its scene is empty now."
+            aside = {"moved_to": str(error.moved_to), "why": str(error)}
+            self._events.append("scene.corrupt", message, device_id=self._device_id, details=aside)
             return error.stored
 
 

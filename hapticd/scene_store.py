@@ -40,7 +40,10 @@ class SceneStore:
         self._dof = dof
 
     def load(self) -> StoredScene:
-        """The stored scene, or an empty one. ``CorruptScene`` when the file is of no use; it is moved aside."""
+        """The stored scene, or an empty one.
+
+        ``CorruptScene`` when the file is of no use; it is moved aside.
+        """
         if not self._file.exists():
             return StoredScene()
         try:
@@ -73,7 +76,8 @@ class SceneStore:
     def _set_aside(self, error: Exception) -> CorruptScene:
         moved_to = self._file.with_name(f"{self._file.name}.corrupt-{datetime.now(UTC):%Y%m%dT%H%M%SZ}")
         self._file.replace(moved_to)
-        # Two past the last readable one: the unreadable one had the number between, and no revision is used twice.
+        # Two past the last readable one: the unreadable one had the number between, and no revision is used
+        # twice.
         return CorruptScene(str(error), moved_to, StoredScene(revision=self._last_good_revision() + 2))
 
     def _last_good_revision(self) -> int:

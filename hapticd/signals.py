@@ -13,8 +13,9 @@ from hapticd.problem import Problem
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """One signal. ``shape`` is empty for a scalar, ``(3,)`` for a vector (a third axis that is not there is zero).
+    """One signal.
 
+    ``shape`` is empty for a scalar, ``(3,)`` for a vector; an axis the device does not have is zero.
     Integers are signed on the wire: "none" is −1 where the record has all ones.
     """
 

@@ -67,7 +67,7 @@ class Limits(Report):
 
 
 class Health(Report):
-    """Whether the servo lives, and why not."""
+    """Whether the servo lives, and why not; how well it keeps time. ``restarts`` counts its returns."""
 
     online: bool
     why: str | None = None

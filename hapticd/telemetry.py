@@ -1,7 +1,8 @@
 """Telemetry: the ring is read once per device and frame, whoever is watching.
 
-A pump wakes at ``PUMP_HZ``, reads the new ticks, and hands each distinct selection of signals one frame, which all its
-subscribers share. A subscriber that does not keep up loses its oldest frames and is told how many ticks they held.
+A pump wakes at ``PUMP_HZ``, reads the new ticks, and hands each distinct selection of signals one frame,
+which all its subscribers share. A subscriber that does not keep up loses its oldest frames and is told how
+many ticks they held.
 """
 
 from __future__ import annotations
@@ -61,7 +62,10 @@ class Selection:
 
 @dataclass(frozen=True, slots=True)
 class Delivery:
-    """A frame for one subscriber. ``seq`` counts its deliveries from 0, ``dropped`` the ticks it missed before this."""
+    """A frame for one subscriber.
+
+    ``seq`` counts its deliveries from 0, ``dropped`` the ticks it missed before this.
+    """
 
     seq: int
     dropped: int
@@ -140,8 +144,8 @@ class Telemetry:
     ) -> Iterator[Subscription]:
         """Frames of ``signals`` from now on.
 
-        ``batch`` frames carry every tick since the frame before, ``latest`` the newest alone. ``rate_hz`` is rounded to
-        the next ``PUMP_HZ``/n. ``Problem`` (signal-unknown) for a name that does not exist.
+        ``batch`` frames carry every tick since the frame before, ``latest`` the newest alone. ``rate_hz`` is
+        rounded to the next ``PUMP_HZ``/n. ``Problem`` (signal-unknown) for a name that does not exist.
         """
         selection = Selection(chosen(signals), mode, max(1, round(PUMP_HZ / rate_hz)))
         audience = self._audiences.setdefault(selection, _Audience(selection))

@@ -1,0 +1,46 @@
+"""What a servo tells, as sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from hapticd.reasons import faults
+
+if TYPE_CHECKING:
+    from hapticd._core import ServoEvent
+
+LINKS = {
+    "fresh": "answers.",
+    "missing": "sends no new frame.",
+    "down": "is gone; the driver tries to reach it again.",
+}
+
+
+def message_of(device_id: str, event: ServoEvent) -> str:
+    """The sentence for one event; the kind itself where it is not known."""
+    say = _SENTENCES.get(event["kind"])
+    return say(device_id, event["details"]) if say else f"{device_id}: {event['kind']}."
+
+
+def _faults(device_id: str, details: Mapping[str, Any]) -> str:
+    raised = faults(details["raised"])
+    if raised:
+        return " ".join(f"{device_id}: {fault.cause} {fault.cure}" for fault in raised)
+    left = ", ".join(fault.id for fault in faults(details["latched"]))
+    return f"{device_id}: faults acknowledged; {f'still latched: {left}' if left else 'none is left'}."
+
+
+_SENTENCES: Mapping[str, Callable[[str, Mapping[str, Any]], str]] = {
+    "started": lambda device_id, _: f"The loop of {device_id} runs.",
+    "state": lambda device_id, details: f"{device_id} went from {details['from']} to {details['to']}.",
+    "faults": _faults,
+    "device": lambda device_id, details: f"{device_id} {LINKS.get(details['link'], details['link'])}",
+    "front": lambda device_id, details: (
+        f"{device_id} hears the front again."
+        if details["alive"]
+        else f"{device_id} no longer heard the front."
+    ),
+    "overflow": lambda device_id, _: f"Events of {device_id} were lost: more arose than its ring holds.",
+    "stopped": lambda device_id, details: f"The loop of {device_id} ended: {details['reason']}.",
+}

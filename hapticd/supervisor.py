@@ -1,0 +1,182 @@
+"""The supervisor: keeps one device's servo running, and the device attached to it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from hapticd import _core
+from hapticd.backoff import Backoff
+from hapticd.channel import Link
+from hapticd.device import Device
+from hapticd.events import EventLog
+from hapticd.heartbeat import Heartbeat
+from hapticd.problem import Problem
+from hapticd.servo_process import ServoProcess
+
+WATCH_S = 0.05
+READY_TIMEOUT_S = 10.0
+RESTORE_AGAIN_S = 1.0
+
+STEADY_S = 30.0
+"""A servo that ran this long was well: the next one is started without delay."""
+
+OpenLink = Callable[[Path], Link]
+
+
+class ServoFailed(Exception):
+    """The servo could not be started or reached; the text says why."""
+
+
+def open_front(region: Path) -> Link:
+    """The shared memory of a servo. ``OSError`` or ``RegionError`` when there is none of use."""
+    return _core.Front(str(region))
+
+
+class Supervisor:
+    """One device's supervisor. ``run`` is its task; ``stop`` ends servo and task."""
+
+    def __init__(
+        self,
+        device: Device,
+        servo: ServoProcess,
+        heartbeat: Heartbeat,
+        events: EventLog,
+        open_link: OpenLink = open_front,
+    ) -> None:
+        self._device = device
+        self._servo = servo
+        self._heartbeat = heartbeat
+        self._events = events
+        self._open_link = open_link
+        self._backoff = Backoff()
+        self._stopping = asyncio.Event()
+
+    async def run(self) -> None:
+        """Attaches to a living servo or starts one, again and again until ``stop``."""
+        while not self._stopping.is_set():
+            began_s = time.monotonic()
+            why = await self._once()
+            if self._stopping.is_set():
+                return
+            self._device.detach(why)
+            if time.monotonic() - began_s > STEADY_S:
+                self._backoff.reset()
+            await self._pause(self._backoff.pause_s())
+
+    async def stop(self) -> None:
+        """Ends the servo that this supervisor started; one that others started runs on, without a front."""
+        self._stopping.set()
+        if not await self._servo.terminate():
+            self._tell("servo.killed", "did not exit in time and was killed.")
+
+    async def _once(self) -> str:
+        try:
+            link = await self._attach_to_living() or await self._launch()
+        except (ServoFailed, OSError) as error:
+            self._tell("servo.failed", f"has no servo. {error}")
+            return str(error)
+        try:
+            return await self._serve(link)
+        finally:
+            self._heartbeat.remove(link)
+            link.close()
+
+    async def _attach_to_living(self) -> Link | None:
+        link = self._open_living()
+        if link is None:
+            return None
+        if self._servo.configured_alike():
+            return link
+        self._tell("servo.outdated", "has a servo with another configuration; it is stopped.")
+        await self._stop_other(link)
+        return None
+
+    def _open_living(self) -> Link | None:
+        try:
+            link = self._open_link(self._servo.region)
+        except (OSError, _core.RegionError):
+            return None
+        if link.servo_alive() and link.info()["device_id"] == self._device.device_id:
+            return link
+        link.close()
+        return None
+
+    async def _stop_other(self, link: Link) -> None:
+        try:
+            link.send('{"type": "stop"}')
+            await _until_gone(link)
+        finally:
+            link.close()
+
+    async def _launch(self) -> Link:
+        await self._servo.launch()
+        deadline_s = time.monotonic() + READY_TIMEOUT_S
+        why = "Its servo did not make its shared memory in time."
+        while time.monotonic() < deadline_s and not self._stopping.is_set():
+            if ending := self._servo.ending():
+                raise ServoFailed(ending)
+            try:
+                link = self._open_link(self._servo.region)
+            except (OSError, _core.RegionError) as error:
+                why = f"Its servo's shared memory cannot be used: {error}."
+            else:
+                if link.info()["pid"] == self._servo.pid and link.servo_alive():
+                    return link
+                link.close()
+            await asyncio.sleep(WATCH_S)
+        await self._servo.terminate()
+        raise ServoFailed(why)
+
+    async def _serve(self, link: Link) -> str:
+        """Stays attached until the servo goes; says why it went."""
+        self._heartbeat.add(link)
+        self._device.attach(link)
+        self._tell("servo.attached", "is attached to its servo.", {"pid": link.info()["pid"]})
+        restoring = asyncio.create_task(self._restore(), name=f"restore-{self._device.device_id}")
+        try:
+            while (why := self._gone(link)) is None:
+                self._device.tell_servo_events()
+                await asyncio.sleep(WATCH_S)
+        finally:
+            restoring.cancel()
+        self._device.tell_servo_events()
+        if not self._stopping.is_set():
+            self._tell("servo.lost", f"lost its servo. {why}")
+        return why
+
+    async def _restore(self) -> None:
+        """Puts hand and scene in force; tries again while the loop does not take them."""
+        while True:
+            try:
+                await self._device.restore()
+            except Problem as problem:
+                self._tell("scene.not_restored", f"does not render its scene yet. {problem.detail}")
+                await asyncio.sleep(RESTORE_AGAIN_S)
+            else:
+                return
+
+    def _gone(self, link: Link) -> str | None:
+        if ending := self._servo.ending():
+            return ending
+        return None if link.servo_alive() else "Its servo stopped beating."
+
+    def _tell(self, kind: str, message: str, details: Mapping[str, Any] | None = None) -> None:
+        device_id = self._device.device_id
+        self._events.append(kind, f"{device_id} {message}", device_id=device_id, details=details)
+
+    async def _pause(self, pause_s: float) -> None:
+        """Sleeps, but not into the end."""
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(self._stopping.wait(), pause_s)
+
+
+async def _until_gone(link: Link) -> None:
+    with contextlib.suppress(TimeoutError):
+        async with asyncio.timeout(READY_TIMEOUT_S):
+            while link.servo_alive():  # noqa: ASYNC110 - another process sets it
+                await asyncio.sleep(WATCH_S)
