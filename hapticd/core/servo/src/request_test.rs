@@ -1,0 +1,152 @@
+use super::*;
+use crate::document::parse;
+use proptest::prelude::*;
+
+fn wall() -> impl Strategy<Value = Wall> {
+    (
+        0.0..std::f64::consts::TAU,
+        -1.0..1.0f64,
+        -1.0..1.0f64,
+        0.0..=1.0f64,
+    )
+        .prop_map(|(azimuth, height, offset_m, eta)| {
+            let radius = (1.0 - height * height).sqrt();
+            Wall {
+                normal: [radius * azimuth.cos(), radius * azimuth.sin(), height],
+                offset_m,
+                eta,
+            }
+        })
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let choices = (0u64..2, 0u64..2, 0u64..3);
+    let walls = prop::collection::vec(wall(), 0..=MAX_WALLS);
+    (any::<u64>(), 0.0..5.0f64, choices, walls).prop_map(|(revision, fade_s, choice, list)| {
+        let mut scene = Scene {
+            revision,
+            fade_s,
+            mapping: mapping_of(choice.0).unwrap(),
+            stiffness: stiffness_of(choice.1).unwrap(),
+            allocation: allocation_of(choice.2).unwrap(),
+            count: list.len(),
+            ..Scene::default()
+        };
+        scene.walls[..list.len()].copy_from_slice(&list);
+        scene
+    })
+}
+
+fn round_trip(envelope: &Envelope) -> Result<Envelope, u64> {
+    let mut words = [0; REQUEST_WORDS];
+    let length = envelope.encode(&mut words);
+    Envelope::decode(&words[..length])
+}
+
+proptest! {
+    #[test]
+    fn scenes_survive_their_words(scene in scene(), id in any::<u64>(), epoch in prop::option::of(0u64..1 << 60)) {
+        let envelope = Envelope { id, epoch, request: Request::Scene(scene) };
+        prop_assert_eq!(round_trip(&envelope), Ok(envelope));
+    }
+
+    #[test]
+    fn cut_scenes_are_refused_by_number(scene in scene(), id in any::<u64>(), cut in 1usize..5) {
+        let mut words = [0; REQUEST_WORDS];
+        let envelope = Envelope { id, epoch: None, request: Request::Scene(scene) };
+        let length = envelope.encode(&mut words);
+        prop_assert_eq!(Envelope::decode(&words[..length - cut]), Err(id));
+    }
+
+    #[test]
+    fn arbitrary_words_never_become_an_invalid_request(
+        words in prop::collection::vec(prop_oneof![any::<u64>(), 0u64..12], 0..30)
+    ) {
+        if let Ok(envelope) = Envelope::decode(&words) {
+            prop_assert!(envelope.request.is_valid());
+        }
+    }
+}
+
+#[test]
+fn every_kind_of_request_survives_its_words() {
+    let documents = [
+        r#"{"type":"desired","desired":"enabled"}"#,
+        r#"{"type":"desired","desired":"disabled"}"#,
+        r#"{"type":"desired","desired":"paused"}"#,
+        r#"{"type":"estop"}"#,
+        r#"{"type":"estop_ack"}"#,
+        r#"{"type":"fault_ack","faults":5}"#,
+        r#"{"type":"hand","script":{"type":"follow","target_m":[0.1,0.2,0.0]}}"#,
+        r#"{"type":"inject","injection":{"type":"silence","duration_s":0.5}}"#,
+        r#"{"type":"stop"}"#,
+        r#"{"type":"scene","epoch":3,"scene":{"revision":7,"fade_s":0.2,"mapping":"inverse","stiffness":"pose",
+            "allocation":"brake_only","walls":[{"normal":[0,0,1],"offset_m":-0.02,"eta":0.5}]}}"#,
+    ];
+    for (id, document) in (1..).zip(documents) {
+        let (request, epoch) = parse(document).unwrap();
+        let envelope = Envelope { id, epoch, request };
+        assert_eq!(round_trip(&envelope), Ok(envelope), "{document}");
+    }
+}
+
+#[test]
+fn documents_that_make_no_sense_are_refused() {
+    let scene = |wall: &str| {
+        format!(
+            r#"{{"type":"scene","scene":{{"revision":1,"fade_s":0.1,"mapping":"transpose","stiffness":"pose",
+                "allocation":"motor_only","walls":[{wall}]}}}}"#
+        )
+    };
+    let documents = [
+        "[]".to_owned(),
+        r#"{"type":"dance"}"#.into(),
+        r#"{"type":"estop","volume":11}"#.into(),
+        r#"{"type":"desired","desired":"broken"}"#.into(),
+        r#"{"type":"stop","epoch":-1}"#.into(),
+        r#"{"type":"hand","script":{"type":"push","direction":[0,0,0],"force_n":1}}"#.into(),
+        scene(r#"{"normal":[0,0,0],"offset_m":0,"eta":0}"#),
+        scene(r#"{"normal":[0,0,2],"offset_m":0,"eta":0}"#),
+        scene(r#"{"normal":[0,0,1],"offset_m":0,"eta":1.2}"#),
+        scene(r#"{"normal":[0,0,1],"offset_m":0,"eta":0,"colour":"red"}"#),
+        scene(&[r#"{"normal":[0,0,1],"offset_m":0,"eta":0}"#; MAX_WALLS + 1].join(",")),
+    ];
+    for document in documents {
+        assert!(parse(&document).is_err(), "{document}");
+    }
+}
+
+#[test]
+fn a_scene_with_a_nan_is_malformed_even_when_the_words_are_whole() {
+    let mut scene = Scene {
+        count: 1,
+        ..Scene::default()
+    };
+    scene.walls[0].normal = [0.0, 0.0, 1.0];
+    for spoil in [
+        |wall: &mut Wall| wall.normal[0] = f64::NAN,
+        |wall: &mut Wall| wall.offset_m = f64::INFINITY,
+        |wall: &mut Wall| wall.eta = f64::NAN,
+        |wall: &mut Wall| wall.eta = -0.1,
+    ] {
+        let mut spoiled = scene;
+        spoil(&mut spoiled.walls[0]);
+        let request = Request::Scene(spoiled);
+        let envelope = Envelope {
+            id: 4,
+            epoch: None,
+            request,
+        };
+        assert_eq!(round_trip(&envelope), Err(4));
+    }
+}
+
+#[test]
+fn only_withdrawals_ignore_the_lease() {
+    let lease_free = |json: &str| parse(json).unwrap().0.is_withdrawal();
+    assert!(lease_free(r#"{"type":"estop"}"#));
+    assert!(lease_free(r#"{"type":"stop"}"#));
+    assert!(lease_free(r#"{"type":"desired","desired":"disabled"}"#));
+    assert!(!lease_free(r#"{"type":"desired","desired":"enabled"}"#));
+    assert!(!lease_free(r#"{"type":"estop_ack"}"#));
+}
