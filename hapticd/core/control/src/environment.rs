@@ -8,11 +8,13 @@ use crate::scene::Wall;
 /// exchange duplicates, contradictions and hundreds of walls stay well posed.
 const ETA_MIN: f64 = 1e-7;
 
-/// Newton steps at most. Two to four are usual; the objective falls with every one.
+/// Newton steps at most. Two to four are usual, eleven the most seen; the objective falls with
+/// every one, so that an early end is still a point between the tip and the set-point.
 const NEWTON_STEPS: usize = 40;
 
-/// Newton step, m, below which the set-point is found.
-const STEP_MIN_M: f64 = 1e-10;
+/// Newton step, m, below which the set-point is found: above the rounding among contradicting
+/// rigid walls, and 20 µN at 20 N/mm.
+const STEP_MIN_M: f64 = 1e-9;
 
 /// Evaluations of the line search at most.
 const SEARCH_STEPS: usize = 30;

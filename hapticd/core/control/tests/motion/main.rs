@@ -1,0 +1,12 @@
+//! Property tests of everything from counts to joint demand.
+
+mod contact;
+mod couple;
+mod environment;
+mod estimate;
+mod kinematics;
+mod layers;
+mod linear;
+mod mapping;
+mod models;
+mod walls;
