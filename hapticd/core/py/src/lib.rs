@@ -3,12 +3,14 @@
 use pyo3::prelude::*;
 
 mod control;
+mod schema;
 mod servo;
 mod twin;
 
 /// Rust core of hapticd.
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    schema::register(module)?;
     control::register(module)?;
     twin::register(module)?;
     servo::register(module)?;

@@ -5,6 +5,7 @@ use crate::model::{
     BrakeTwinModel, ForceSensorModel, FrictionModel, HandModel, HhdTwinModel, PhantomTwinModel,
     StopModel, TwinModel, WindingTwinModel,
 };
+use hapticd_control::check::check as check_device;
 use hapticd_control::io::Axes;
 use hapticd_control::model::DeviceModel;
 
@@ -17,8 +18,8 @@ impl TwinModel {
     /// # Errors
     /// [`TwinError`] naming the first value that makes no sense.
     pub fn check(&self, device: &DeviceModel, rate_hz: f64) -> Result<(), TwinError> {
+        check_device(device, rate_hz).map_err(TwinError::Device)?;
         let dof = device.dof;
-        positive("rate_hz", rate_hz)?;
         let substeps = match self {
             Self::Phantom(model) => model.check(dof)?,
             Self::Hhd(model) => model.check(dof)?,

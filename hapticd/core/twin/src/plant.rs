@@ -6,7 +6,7 @@ use crate::truth::Truth;
 use hapticd_control::io::{Command, Observation};
 
 /// A device's mechanics, actuators, sensors and operator.
-pub trait Plant: core::fmt::Debug + Send {
+pub trait Plant: core::fmt::Debug + Send + Sync {
     /// Writes what the sensors read now: counts, forces, currents and status.
     fn observe(&self, observation: &mut Observation, noise: &mut Noise);
     /// The true state now.
