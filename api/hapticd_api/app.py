@@ -1,0 +1,74 @@
+"""The application: middleware, routes and errors put together over one station."""
+
+from __future__ import annotations
+
+from fastapi import FastAPI
+from prometheus_client import CollectorRegistry, Gauge, ProcessCollector
+from starlette.middleware import Middleware
+
+from hapticd.station import Station
+from hapticd_api import docs_page, errors, page_files
+from hapticd_api.body import BodyGuard
+from hapticd_api.device_metrics import DeviceMetrics
+from hapticd_api.gate import Gate
+from hapticd_api.openapi import describe
+from hapticd_api.release import release
+from hapticd_api.request_metrics import RequestMetrics
+from hapticd_api.response_headers import ResponseHeaders
+from hapticd_api.routers import (
+    asyncapi,
+    devices,
+    estop,
+    events,
+    faults,
+    health,
+    interlocks,
+    metrics,
+    model,
+    problems,
+    root,
+    scene,
+    state,
+    system,
+    twin,
+    walls,
+)
+from hapticd_api.stream import endpoint
+
+_ROUTERS = (
+    *(devices, model, state, interlocks, estop, faults, scene, walls, twin, events),
+    *(root, system, asyncapi, health, metrics, problems),
+    *(docs_page, page_files, endpoint),
+)
+
+
+def create_app(station: Station) -> FastAPI:
+    """The HTTP and WebSocket API over `station`, which the caller starts and stops."""
+    registry = CollectorRegistry()
+    ProcessCollector(registry=registry)
+    registry.register(DeviceMetrics(station))
+    app = FastAPI(
+        title="hapticd",
+        version=release(),
+        docs_url=None,
+        redoc_url=None,
+        middleware=_middleware(station, registry),
+    )
+    app.state.station = station
+    app.state.streams = Gauge("hapticd_stream_clients", "Open WebSockets", registry=registry)
+    app.state.registry = registry
+    for module in _ROUTERS:
+        app.include_router(module.router)
+    errors.install(app)
+    describe(app)
+    return app
+
+
+def _middleware(station: Station, registry: CollectorRegistry) -> list[Middleware]:
+    """Outermost first: everything is counted, then who asks is checked, then what is sent."""
+    return [
+        Middleware(ResponseHeaders),
+        Middleware(RequestMetrics, registry=registry),
+        Middleware(Gate, hosts=frozenset({station.config.api.host})),
+        Middleware(BodyGuard),
+    ]

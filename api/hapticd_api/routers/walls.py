@@ -1,0 +1,213 @@
+"""The walls of a device's scene, one by one."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body
+from starlette.responses import Response
+
+from hapticd.device import Device
+from hapticd.problem import Problem
+from hapticd.scene import Scene, Wall
+from hapticd.snapshot import Applied, Report, SceneResult
+from hapticd_api.conditional import conditional, tagged
+from hapticd_api.dependencies import DeviceDep, DryRun, IfMatch, IfNoneMatch, WallId
+from hapticd_api.document import checked, merged
+from hapticd_api.problem_response import problem_answers
+
+router = APIRouter(prefix="/api/v1/devices/{device_id}/scene/walls", tags=["walls"])
+
+_FLOOR = {
+    "id": "floor",
+    "shape": {"type": "plane", "point_m": [0, 0, -0.02], "normal": [0, 0, 1]},
+    "law": {"type": "motion", "eta": 0.0},
+    "fade_s": 0.2,
+}
+_WALL_EXAMPLES = {"floor": {"summary": "A rigid floor 2 cm below the origin", "value": _FLOOR}}
+_PATCH_EXAMPLES = {
+    "softer": {"summary": "Half as stiff", "value": {"law": {"eta": 0.5}}},
+    "off": {"summary": "Out of the way, but kept", "value": {"enabled": False}},
+}
+
+_READ_ERRORS = ("device-not-found", "wall-not-found")
+_WRITE_ERRORS = (
+    "device-not-found",
+    "invalid-document",
+    "unknown-field",
+    "dimension-mismatch",
+    "too-many-walls",
+    "revision-stale",
+    "storage-failed",
+    "servo-silent",
+)
+_NOT_CHANGED: dict[int | str, dict[str, Any]] = {304: {"description": "The caller's copy still holds"}}
+
+
+class WallList(Report):
+    """The walls of a scene, in its order."""
+
+    walls: list[Wall]
+
+
+class WallResult(Report):
+    """The outcome of an edit of one wall: null once it is gone. `applied` is null while no loop has taken it."""
+
+    wall: Wall | None
+    stiffness_n_per_m: float | None = None
+    etag: str
+    revision: int
+    applied: Applied | None
+    dry_run: bool = False
+    note: str | None = None
+
+
+def _wall_result(result: SceneResult, wall_id: str) -> WallResult:
+    granted = {wall.id: wall.stiffness_n_per_m for wall in result.walls}
+    return WallResult(
+        wall=result.scene.wall(wall_id),
+        stiffness_n_per_m=granted.get(wall_id),
+        etag=result.etag,
+        revision=result.revision,
+        applied=result.applied,
+        dry_run=result.dry_run,
+        note=result.note,
+    )
+
+
+def _has(device: Device, wall_id: str) -> bool:
+    return device.scene.wall(wall_id) is not None
+
+
+@router.get(
+    "",
+    operation_id="list_walls",
+    summary="All walls",
+    response_model=WallList,
+    responses={**problem_answers("device-not-found"), **_NOT_CHANGED},
+)
+async def list_walls(device: DeviceDep, if_none_match: IfNoneMatch = None) -> Response:
+    """Every wall of the scene. The `ETag` is that of the scene."""
+    return conditional(WallList(walls=list(device.scene.walls)), device.scene_etag, if_none_match)
+
+
+@router.post(
+    "",
+    operation_id="create_wall",
+    summary="Make a wall",
+    response_model=WallResult,
+    status_code=201,
+    responses=problem_answers(*_WRITE_ERRORS, "wall-exists"),
+)
+async def create_wall(
+    device: DeviceDep,
+    wall: Annotated[Wall, Body(openapi_examples=_WALL_EXAMPLES)],
+    if_match: IfMatch = None,
+    dry_run: DryRun = False,
+) -> Response:
+    """Adds a wall at the end of the scene; 409 if its id is taken. It fades in, also around the tool."""
+    result = await device.put_wall(wall, if_match=if_match, dry_run=dry_run, create_only=True)
+    location = f"/api/v1/devices/{device.device_id}/scene/walls/{wall.id}"
+    status = 200 if dry_run else 201
+    return tagged(_wall_result(result, wall.id), result.etag, status=status, location=location)
+
+
+@router.get(
+    "/{wall_id}",
+    operation_id="get_wall",
+    summary="One wall",
+    response_model=Wall,
+    responses={**problem_answers(*_READ_ERRORS), **_NOT_CHANGED},
+)
+async def get_wall(device: DeviceDep, wall_id: WallId, if_none_match: IfNoneMatch = None) -> Response:
+    """The wall as it was written, ready to be edited and sent back."""
+    return conditional(device.get_wall(wall_id), device.scene_etag, if_none_match)
+
+
+@router.put(
+    "/{wall_id}",
+    operation_id="put_wall",
+    summary="Make or replace a wall",
+    response_model=WallResult,
+    responses={
+        201: {"description": "The wall was made", "model": WallResult},
+        **problem_answers(*_WRITE_ERRORS, "wall-exists"),
+    },
+    openapi_extra={
+        "requestBody": {
+            "required": True,
+            "content": {
+                "application/json": {
+                    "schema": {"$ref": "#/components/schemas/Wall"},
+                    "examples": _WALL_EXAMPLES,
+                }
+            },
+        }
+    },
+)
+async def put_wall(
+    device: DeviceDep,
+    wall_id: WallId,
+    document: Annotated[dict[str, Any], Body()],
+    if_match: IfMatch = None,
+    if_none_match: IfNoneMatch = None,
+    dry_run: DryRun = False,
+) -> Response:
+    """Makes the wall, or replaces it in its place. `id` may be left out: the address names it."""
+    wall = checked(Wall, {"id": wall_id, **document})
+    _check_name(wall, wall_id)
+    is_new = not _has(device, wall_id)
+    create_only = if_none_match is not None and if_none_match.strip() == "*"
+    result = await device.put_wall(wall, if_match=if_match, dry_run=dry_run, create_only=create_only)
+    return tagged(_wall_result(result, wall_id), result.etag, status=201 if is_new and not dry_run else 200)
+
+
+@router.patch(
+    "/{wall_id}",
+    operation_id="patch_wall",
+    summary="Change part of a wall",
+    response_model=WallResult,
+    responses=problem_answers(*_WRITE_ERRORS, "wall-not-found"),
+)
+async def patch_wall(
+    device: DeviceDep,
+    wall_id: WallId,
+    patch: Annotated[dict[str, Any], Body(openapi_examples=_PATCH_EXAMPLES)],
+    if_match: IfMatch = None,
+    dry_run: DryRun = False,
+) -> Response:
+    """Merges a JSON merge patch (RFC 7396) into the wall; what it does not name stays."""
+
+    def change(scene: Scene) -> Scene:
+        before = scene.wall(wall_id) or device.get_wall(wall_id)
+        wall = checked(Wall, merged(before.model_dump(mode="json"), patch))
+        _check_name(wall, wall_id)
+        return scene.with_wall(wall)
+
+    result = await device.edit_scene(change, if_match=if_match, dry_run=dry_run)
+    return tagged(_wall_result(result, wall_id), result.etag)
+
+
+@router.delete(
+    "/{wall_id}",
+    operation_id="delete_wall",
+    summary="Take a wall away",
+    response_model=WallResult,
+    responses=problem_answers(*_READ_ERRORS, "revision-stale", "storage-failed", "servo-silent"),
+)
+async def delete_wall(
+    device: DeviceDep, wall_id: WallId, if_match: IfMatch = None, dry_run: DryRun = False
+) -> Response:
+    """Takes the wall out of the scene; its force fades out."""
+    result = await device.delete_wall(wall_id, if_match=if_match, dry_run=dry_run)
+    return tagged(_wall_result(result, wall_id), result.etag)
+
+
+def _check_name(wall: Wall, wall_id: str) -> None:
+    if wall.id != wall_id:
+        raise Problem(
+            "invalid-document",
+            f"The document's id is {wall.id!r}, its address says {wall_id!r}.",
+            hint="Leave id out, or send the document to the address of that id.",
+            pointer="/id",
+        )
