@@ -1,31 +1,29 @@
-//! Interlocks: what keeps a device from being enabled, why, and what to do about it.
+//! Interlocks: what keeps a device from being enabled, why, and what to do about it. A set of
+//! them is a `u64` with one bit each, in the order of [`INTERLOCKS`].
 
-/// Bits of a set of interlocks, in the order of [`INTERLOCKS`].
-pub mod interlock {
-    /// No connection to the device.
-    pub const OFFLINE: u64 = 1 << 0;
-    /// The E-stop is latched.
-    pub const ESTOP_LATCHED: u64 = 1 << 1;
-    /// The E-stop input of the device is open.
-    pub const ESTOP_INPUT: u64 = 1 << 2;
-    /// A fault is latched.
-    pub const FAULT_LATCHED: u64 = 1 << 3;
-    /// The joint zero is unknown.
-    pub const NOT_HOMED: u64 = 1 << 4;
-    /// Real-time scheduling is required and was not obtained.
-    pub const REALTIME_MISSING: u64 = 1 << 5;
-    /// A procedure owns the device.
-    pub const BUSY: u64 = 1 << 6;
-    /// The front's heartbeat is missing.
-    pub const FRONT_MISSING: u64 = 1 << 7;
-    /// Only an enabled device can be paused. Refuses a pause, never an enabling.
-    pub const NOT_ENABLED: u64 = 1 << 8;
-}
+/// No connection to the device.
+pub const OFFLINE: u64 = 1 << 0;
+/// The E-stop is latched.
+pub const ESTOP_LATCHED: u64 = 1 << 1;
+/// The E-stop input of the device is open.
+pub const ESTOP_INPUT: u64 = 1 << 2;
+/// A fault is latched.
+pub const FAULT_LATCHED: u64 = 1 << 3;
+/// The joint zero is unknown.
+pub const NOT_HOMED: u64 = 1 << 4;
+/// Real-time scheduling is required and was not obtained.
+pub const REALTIME_MISSING: u64 = 1 << 5;
+/// A procedure owns the device.
+pub const BUSY: u64 = 1 << 6;
+/// The front's heartbeat is missing.
+pub const FRONT_MISSING: u64 = 1 << 7;
+/// Only an enabled device can be paused. Refuses a pause, never an enabling.
+pub const NOT_ENABLED: u64 = 1 << 8;
 
 /// What is known about an interlock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InterlockInfo {
-    /// Its bit, one of [`interlock`].
+    /// Its bit.
     pub bit: u64,
     /// Name in the API.
     pub slug: &'static str,
@@ -39,7 +37,7 @@ macro_rules! interlocks {
     ($( $bit:ident, $slug:literal, $why:literal, $cure:literal; )*) => {
         /// Every interlock, in bit order.
         pub const INTERLOCKS: &[InterlockInfo] = &[ $( InterlockInfo {
-            bit: interlock::$bit, slug: $slug, why: $why, cure: $cure,
+            bit: $bit, slug: $slug, why: $why, cure: $cure,
         }, )* ];
     };
 }

@@ -2,6 +2,11 @@
 //! allocate → bound → command. Pure functions over fixed-size values: no I/O, no allocation
 //! in a tick, no clock of its own.
 
+pub mod actuator;
+pub mod allocate;
+pub mod bound;
+pub mod brake;
+pub mod budget;
 pub mod check;
 pub mod contact;
 pub mod controller;
@@ -9,6 +14,7 @@ pub mod couple;
 pub mod environment;
 pub mod estimate;
 pub mod fault;
+pub mod gain;
 pub mod interlock;
 pub mod io;
 pub mod kinematics;
@@ -16,6 +22,11 @@ pub mod layers;
 pub mod linear;
 pub mod mapping;
 pub mod model;
+pub mod outputs;
+pub mod plausibility;
+pub mod publish;
 pub mod record;
+pub mod render;
 pub mod scene;
 pub mod state;
+pub mod thermal;

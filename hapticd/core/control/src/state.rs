@@ -2,7 +2,7 @@
 //! It has no clock and knows nothing of outputs; it only says how they are to be driven.
 
 use crate::fault::{Fault, FaultSet, Severity};
-use crate::interlock::interlock;
+use crate::interlock;
 
 /// State of a device. The number is the one of [`crate::record::TickRecord::state`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,7 +42,7 @@ pub enum Event {
 /// An event that was not carried out, and the interlocks that stand against it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// Bits of [`interlock`].
+    /// Bits of [`crate::interlock`].
     pub interlocks: u64,
 }
 
@@ -99,7 +99,7 @@ impl Machine {
         }
     }
 
-    /// Open interlocks against enabling, bits of [`interlock`].
+    /// Open interlocks against enabling, bits of [`crate::interlock`].
     #[must_use]
     pub fn interlocks(&self, around: Surroundings) -> u64 {
         let bit = |open: bool, bit: u64| if open { bit } else { 0 };
@@ -142,6 +142,20 @@ impl Machine {
             self = self.raise(lost);
         }
         self.state = State::Offline;
+        self
+    }
+
+    /// Takes what the device says of its joint zero. To lose it while outputs are in use is a
+    /// fault: every position is in doubt.
+    #[must_use]
+    pub fn home(mut self, homed: bool) -> Self {
+        let in_use = matches!(self.state, State::Enabled | State::Paused);
+        if in_use && !homed {
+            let mut faults = FaultSet::default();
+            faults.insert(Fault::Encoder);
+            self = self.raise(faults);
+        }
+        self.homed = homed;
         self
     }
 

@@ -1,0 +1,162 @@
+//! The split of a joint torque between motor and brake: brake-direction logic (physics §5).
+
+use crate::linear::V3;
+use crate::model::BrakeModel;
+use crate::scene::Allocation;
+
+/// Time over which a motor leaves its share to a brake that sticks, s (physics §5: 10–20 ms).
+const HAND_OVER_S: f64 = 0.015;
+/// cos of the largest angle between the force wanted and the one a lone brake gives, 45°
+/// (physics §5, Cho's approximation).
+const LONE_BRAKE_COS: f64 = core::f64::consts::FRAC_1_SQRT_2;
+
+/// What is wanted of the joints, and what they meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// τ_d = JᵀF_d, N·m.
+    pub torque_nm: V3,
+    /// F_d, N.
+    pub force_n: V3,
+    /// J⁻ᵀ, 1/m: its columns are the tip forces of unit joint torques.
+    pub force_per_torque: nalgebra::Matrix3<f64>,
+    /// q̇, rad/s.
+    pub qd: V3,
+    /// Jᵀ F_hand, N·m; zero without a force sensor.
+    pub hand_torque_nm: V3,
+    /// F_hand, N; zero without a force sensor.
+    pub hand_force_n: V3,
+    /// ĉ, N·m: what the brakes have built up.
+    pub brake_nm: V3,
+}
+
+/// Shares of motor and brake.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Split {
+    /// Joint torque for the motors, N·m.
+    pub motor_nm: V3,
+    /// Joint torque for the brakes, N·m, not negative.
+    pub brake_nm: V3,
+    /// Which brakes may act in the direction wanted.
+    pub usable: [bool; 3],
+}
+
+/// Whether a brake may take part of `torque_nm`: when moving, if that dissipates; at rest, if the
+/// hand pushes against it (Karnopp); between the two thresholds as decided before.
+#[must_use]
+pub fn usable(model: &BrakeModel, before: bool, torque_nm: f64, qd: f64, hand_nm: f64) -> bool {
+    if qd.abs() > model.omega_on_rad_per_s {
+        torque_nm * qd < 0.0
+    } else if qd.abs() < model.omega_off_rad_per_s {
+        torque_nm * hand_nm < 0.0 && hand_nm.abs() > model.hand_torque_min_nm
+    } else {
+        before
+    }
+}
+
+/// Whether the brakes have to let go together: the joints give in to the force wanted, or rest
+/// while the hand no longer pushes against it (physics §5, after KS Fig. 5).
+#[must_use]
+pub fn releasing(model: &BrakeModel, load: &Load) -> bool {
+    if load.qd.amax() > model.omega_on_rad_per_s {
+        load.torque_nm.dot(&load.qd) > 0.0
+    } else if load.qd.amax() < model.omega_off_rad_per_s {
+        load.force_n.dot(&load.hand_force_n) >= 0.0
+    } else {
+        false
+    }
+}
+
+/// Torque of the brake on `joint` when it is the only one: F_d projected on the force it gives,
+/// or nothing where that points elsewhere.
+#[must_use]
+pub fn lone_brake_nm(load: &Load, joint: usize) -> f64 {
+    let unit = load.force_per_torque.column(joint);
+    let along = load.force_n.dot(&unit);
+    let cos = along.abs() / (load.force_n.norm() * unit.norm());
+    if cos >= LONE_BRAKE_COS && along * load.torque_nm[joint] > 0.0 {
+        along.abs() / unit.norm_squared()
+    } else {
+        0.0
+    }
+}
+
+/// The allocation of one device, with its memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Allocator {
+    model: BrakeModel,
+    hand_over: f64,
+    usable: [bool; 3],
+    motor_nm: V3,
+}
+
+impl Allocator {
+    /// An allocator that has decided nothing yet, called every `period_s`.
+    #[must_use]
+    pub fn new(model: &BrakeModel, period_s: f64) -> Self {
+        Self {
+            model: *model,
+            hand_over: 1.0 - (-period_s / HAND_OVER_S).exp(),
+            usable: [false; 3],
+            motor_nm: V3::zeros(),
+        }
+    }
+
+    /// Splits `load` in the given mode.
+    pub fn split(&mut self, mode: Allocation, load: &Load) -> Split {
+        self.decide(mode, load);
+        let brake_nm = self.brake_nm(mode, load);
+        self.motor_nm = match mode {
+            Allocation::BrakeOnly => V3::zeros(),
+            Allocation::MotorOnly | Allocation::MotorAndBrake => {
+                V3::from_fn(|i, _| self.motor_share_nm(load, i))
+            }
+        };
+        Split {
+            motor_nm: self.motor_nm,
+            brake_nm,
+            usable: self.usable,
+        }
+    }
+
+    fn decide(&mut self, mode: Allocation, load: &Load) {
+        let barred = mode == Allocation::MotorOnly || releasing(&self.model, load);
+        for (i, decision) in self.usable.iter_mut().enumerate() {
+            *decision = !barred
+                && usable(
+                    &self.model,
+                    *decision,
+                    load.torque_nm[i],
+                    load.qd[i],
+                    load.hand_torque_nm[i],
+                );
+        }
+    }
+
+    fn brake_nm(&self, mode: Allocation, load: &Load) -> V3 {
+        let lone = mode == Allocation::BrakeOnly
+            && self.usable.iter().filter(|usable| **usable).count() == 1;
+        V3::from_fn(|i, _| {
+            let wanted_nm = match (self.usable[i], lone) {
+                (false, _) => 0.0,
+                (true, true) => lone_brake_nm(load, i),
+                (true, false) => load.torque_nm[i].abs(),
+            };
+            wanted_nm.min(self.model.torque_max_nm[i])
+        })
+    }
+
+    /// τ_m: what the brake, which acts against the motion, leaves open. At rest the brake only
+    /// reacts, so that the motor hands over slowly what the brake can hold by now.
+    fn motor_share_nm(&self, load: &Load, joint: usize) -> f64 {
+        let (wanted, built_up) = (load.torque_nm[joint], load.brake_nm[joint]);
+        if load.qd[joint].abs() >= self.model.omega_off_rad_per_s {
+            let sense = (load.qd[joint] / self.model.omega_on_rad_per_s).clamp(-1.0, 1.0);
+            wanted + sense * built_up
+        } else if self.usable[joint] {
+            let left_open = wanted.signum() * (wanted.abs() - built_up).max(0.0);
+            self.motor_nm[joint] + self.hand_over * (left_open - self.motor_nm[joint])
+        } else {
+            wanted
+        }
+    }
+}
