@@ -6,7 +6,7 @@ It depends on nothing of the daemon and talks to it over HTTP and WebSocket alon
 from hapticd_client.client import Client, VersionedScene
 from hapticd_client.documents import Device, Scene, Wall, plane
 from hapticd_client.error import HapticdError, NotHapticd, Refused, StreamClosed, Unreachable
-from hapticd_client.stream import Stream
+from hapticd_client.stream import Stream, open_stream
 
 __all__ = [
     "Client",
@@ -20,5 +20,6 @@ __all__ = [
     "Unreachable",
     "VersionedScene",
     "Wall",
+    "open_stream",
     "plane",
 ]

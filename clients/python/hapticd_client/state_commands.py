@@ -105,7 +105,7 @@ def _acknowledge_estops(client: Client, devices: list[str] | None) -> list[Estop
 
 
 def _each(act: Callable[[str], EstopReport], devices: list[str]) -> list[EstopReport]:
-    """Acts on every device, and only then complains about those that refused: one must not save the others."""
+    """Acts on every device, and only then complains of those that refused: one must not shield the next."""
     reports, refusals = [], []
     for device_id in devices:
         try:

@@ -11,19 +11,20 @@ from __future__ import annotations
 import json
 from collections import deque
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from types import TracebackType
-from typing import Any, Literal, Self
+from typing import Any, Literal
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidURI
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
 
 from hapticd_client.connection import daemon_url
 from hapticd_client.documents import Device, Event
 from hapticd_client.error import NotHapticd, Refused, StreamClosed, Unreachable
 
 PATH = "/api/v1/stream"
-SUBPROTOCOL = "hapticd.v1+json"
+SUBPROTOCOL = Subprotocol("hapticd.v1+json")
 VERSION = 1
 
 Mode = Literal["latest", "batch"]
@@ -33,8 +34,8 @@ Mode = Literal["latest", "batch"]
 class Data:
     """Ticks of one device, ``tick`` and ``t_mono_ns`` being the first's.
 
-    ``values`` holds one entry per signal: its newest value in mode ``latest``, a list over ``count`` ticks in mode
-    ``batch``. ``dropped`` ticks before these were lost to this client.
+    ``values`` holds one entry per signal: its newest value in mode ``latest``, a list over ``count`` ticks in
+    mode ``batch``. ``dropped`` ticks before these were lost to this client.
     """
 
     device_id: str
@@ -62,18 +63,32 @@ class Happening:
 Message = Data | Snapshot | Happening
 
 
-class Stream:
-    """Messages of the daemon at ``url``, in the order they were sent.
+@contextmanager
+def open_stream(url: str | None = None, *, timeout_s: float = 5.0) -> Iterator[Stream]:
+    """The stream of the daemon at ``url``, by default ``$HAPTICD_URL`` or the default address.
 
-    Raises `Unreachable` when opened in vain, `StreamClosed` once the daemon has ended it.
+    ``timeout_s`` bounds the opening and every answer, not the wait for messages. Raises `Unreachable` or
+    `NotHapticd`.
+    """
+    address = daemon_url(url)
+    with ExitStack() as resources:
+        socket = _opened(resources, address, timeout_s)
+        yield Stream(address, socket, timeout_s)
+
+
+class Stream:
+    """Messages of a daemon in the order they were sent; made by `open_stream`.
+
+    Raises `StreamClosed` once the daemon has ended it.
     """
 
-    def __init__(self, url: str | None = None, *, timeout_s: float = 5.0) -> None:
-        self.url = daemon_url(url)
+    def __init__(self, url: str, socket: ClientConnection, timeout_s: float) -> None:
+        self._url = url
         self._timeout_s = timeout_s
         self._waiting: deque[Message] = deque()
-        self._socket = _opened(self.url, timeout_s)
-        self.welcome = self._greeted()
+        self._socket = socket
+        self._send({"type": "hello", "version": VERSION, "client": "hapticd_client"})
+        self.welcome = self._receive(timeout_s)
 
     @property
     def device_ids(self) -> list[str]:
@@ -93,7 +108,7 @@ class Stream:
         }
         self._send({"type": "subscribe", **wish})
         while True:
-            raw = self._receive_raw(self._timeout_s)
+            raw = self._receive(self._timeout_s)
             if raw["type"] == "result":
                 return
             self._keep(raw)
@@ -102,21 +117,9 @@ class Stream:
         while True:
             yield self._next()
 
-    def close(self) -> None:
-        """Ends the stream."""
-        self._socket.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-
     def _next(self) -> Message:
         while not self._waiting:
-            self._keep(self._receive_raw(None))
+            self._keep(self._receive(None))
         return self._waiting.popleft()
 
     def _keep(self, raw: dict[str, Any]) -> None:
@@ -124,26 +127,17 @@ class Stream:
         if message is not None:
             self._waiting.append(message)
 
-    def _greeted(self) -> dict[str, Any]:
-        try:
-            self._send({"type": "hello", "version": VERSION, "client": "hapticd_client"})
-            welcome = self._receive_raw(self._timeout_s)
-        except BaseException:
-            self._socket.close()
-            raise
-        return welcome
-
     def _send(self, document: dict[str, Any]) -> None:
         try:
             self._socket.send(json.dumps(document))
         except ConnectionClosed as closed:
             raise _closed(closed) from None
 
-    def _receive_raw(self, timeout_s: float | None) -> dict[str, Any]:
+    def _receive(self, timeout_s: float | None) -> dict[str, Any]:
         try:
             raw: dict[str, Any] = json.loads(self._socket.recv(timeout_s))
         except TimeoutError:
-            raise Unreachable(self.url, "the stream fell silent") from None
+            raise Unreachable(self._url, "the stream fell silent") from None
         except ConnectionClosed as closed:
             raise _closed(closed) from None
         if raw["type"] == "error":
@@ -151,17 +145,19 @@ class Stream:
         return raw
 
 
-def _opened(url: str, timeout_s: float) -> ClientConnection:
+def _opened(resources: ExitStack, url: str, timeout_s: float) -> ClientConnection:
     address = "ws" + url.removeprefix("http") + PATH
+    # Not through a proxy, as with plain requests; compression costs more than it saves.
+    options: dict[str, Any] = {"compression": None, "proxy": None, "open_timeout": timeout_s}
     try:
-        # Not through a proxy of the environment, as with plain requests; compression costs more than it saves.
-        return connect(
-            address, subprotocols=[SUBPROTOCOL], open_timeout=timeout_s, compression=None, proxy=None
+        socket: ClientConnection = resources.enter_context(
+            connect(address, subprotocols=[SUBPROTOCOL], **options)
         )
     except (InvalidHandshake, InvalidURI) as error:
         raise NotHapticd(url, f"it opens no stream ({error})") from None
     except OSError as error:
         raise Unreachable(url, error.strerror or "it did not answer in time") from None
+    return socket
 
 
 def _message(raw: dict[str, Any]) -> Message | None:

@@ -13,7 +13,7 @@ from rich.live import Live
 
 from hapticd_client.board import SIGNALS, Board
 from hapticd_client.error import StreamClosed, Unreachable
-from hapticd_client.stream import Data, Happening, Message, Snapshot, Stream
+from hapticd_client.stream import Data, Happening, Message, Snapshot, open_stream
 from hapticd_client.terminal import JsonOption, UrlOption, console, reported
 
 FRAMES_HZ = 10.0
@@ -50,7 +50,7 @@ def _follow_on_board(url: str | None, devices: Sequence[str] | None) -> None:
 
 
 def _follow(url: str | None, devices: Sequence[str] | None, take: Callable[[Message], None]) -> None:
-    with Stream(url) as stream:
+    with open_stream(url) as stream:
         for device_id in devices or stream.device_ids:
             stream.subscribe(device_id, SIGNALS, rate_hz=FRAMES_HZ, mode="batch")
         for message in stream:

@@ -1,0 +1,116 @@
+"""The command line: `run` and `doctor` are here, the others come by entry point.
+
+A package adds commands by naming a ``typer.Typer`` in the entry point group ``hapticd.commands``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from importlib.metadata import entry_points, version
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+
+from hapticd.doctor import Finding, Verdict, examine
+from hapticd.problem import Problem
+
+GROUP = "hapticd.commands"
+DAEMON = "The daemon"
+MARKS = {Verdict.OK: "[green]✓[/]", Verdict.WARN: "[yellow]![/]", Verdict.FAIL: "[bold red]✗[/]"}
+
+ConfigOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--config", metavar="FILE", help="Configuration; else $HAPTICD_CONFIG, else twins of both devices"
+    ),
+]
+TwinOption = Annotated[bool, typer.Option("--twin", help="Twins in place of the configured hardware")]
+PortOption = Annotated[
+    int | None, typer.Option("--port", min=0, max=65535, help="Port in place of the configured")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for programs")]
+
+app = typer.Typer(
+    no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"max_content_width": 100}
+)
+console = Console(highlight=False)
+error_console = Console(stderr=True, highlight=False)
+
+
+@app.callback()
+def hapticd(
+    version_wanted: Annotated[
+        bool, typer.Option("--version", help="Print the version", is_eager=True)
+    ] = False,
+) -> None:
+    """The service that owns haptic devices: walls over HTTP, every tick streamed."""
+    if version_wanted:
+        print(version("hapticd"))
+        raise typer.Exit()
+
+
+@app.command(rich_help_panel=DAEMON)
+def run(config: ConfigOption = None, twin: TwinOption = False, port: PortOption = None) -> None:
+    """Start the daemon and serve the configured devices. Ctrl-C fades forces out and stops it."""
+    from hapticd.config import load_config
+    from hapticd.daemon import run as serve
+
+    with _reported():
+        loaded = load_config(config)
+        loaded = loaded.on_twins() if twin else loaded
+        if port is not None:
+            loaded = loaded.model_copy(update={"api": loaded.api.model_copy(update={"port": port})})
+        serve(loaded)
+
+
+@app.command(rich_help_panel=DAEMON)
+def doctor(config: ConfigOption = None, as_json: JsonOption = False) -> None:
+    """Examine installation, configuration and machine; name what is wrong and what cures it."""
+    findings = list(examine(config))
+    if as_json:
+        print(json.dumps([asdict(finding) for finding in findings], indent=2, ensure_ascii=False))
+    else:
+        for finding in findings:
+            _show(finding)
+    raise typer.Exit(any(finding.verdict is Verdict.FAIL for finding in findings))
+
+
+def main() -> None:
+    """Runs the command line with the commands of every installed package."""
+    _add_commands(app)
+    app()
+
+
+def _add_commands(to: typer.Typer) -> None:
+    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+        try:
+            to.add_typer(entry.load())
+        except Exception as error:  # one broken package must not take the command line away; it is reported
+            error_console.print(
+                f"[yellow]![/] The commands of {escape(entry.value)} are missing: {escape(repr(error))}"
+            )
+
+
+@contextmanager
+def _reported() -> Iterator[None]:
+    """Shows a problem as title, what happened, and cure, and ends the command."""
+    try:
+        yield
+    except Problem as problem:
+        error_console.print(f"[bold red]✗ {escape(problem.title)}[/]")
+        error_console.print(f"  {escape(problem.detail)}", soft_wrap=True)
+        error_console.print(f"  [bold]Cure:[/] {escape(problem.hint)}", soft_wrap=True)
+        raise typer.Exit(1) from None
+
+
+def _show(finding: Finding) -> None:
+    line = f"{MARKS[finding.verdict]} [bold]{escape(finding.subject)}[/]  {escape(finding.detail)}"
+    console.print(line, soft_wrap=True)
+    if finding.cure is not None:
+        console.print(f"    [bold]Cure:[/] {escape(finding.cure)}", soft_wrap=True)
