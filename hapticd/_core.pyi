@@ -150,3 +150,89 @@ class Servo:
         """What the driver's last `exchange` raised."""
     def wake_fd(self) -> int:
         """Write end of the pipe `wait` listens on, for `signal.set_wakeup_fd`."""
+
+# ---------------------------------------------------------------------------------------------
+# schema.rs: the core's tables
+# ---------------------------------------------------------------------------------------------
+
+class FieldInfo(TypedDict):
+    """One field of a tick record, in memory order."""
+
+    name: str
+    kind: str
+    """`float` or `unsigned`."""
+    words: int
+    """8-byte words: 1 or 3."""
+    unit: str
+    meaning: str
+
+class FaultInfo(TypedDict):
+    """One fault; its bit is its place in the table."""
+
+    slug: str
+    severity: str
+    """`stop_now`, `soft_stop` or `blocks_enabling`."""
+    cause: str
+    cure: str
+
+class InterlockInfo(TypedDict):
+    """One interlock; its bit is its place in the table."""
+
+    slug: str
+    why: str
+    cure: str
+
+class BuildInfo(TypedDict):
+    """How the core was built."""
+
+    version: str
+    profile: str
+    platform: str
+
+def tick_schema() -> list[FieldInfo]: ...
+def fault_table() -> list[FaultInfo]: ...
+def interlock_table() -> list[InterlockInfo]: ...
+def build_info() -> BuildInfo: ...
+
+# ---------------------------------------------------------------------------------------------
+# twin.rs: a plant alone, and the loop closed over one
+# ---------------------------------------------------------------------------------------------
+
+class TwinTruth(TypedDict):
+    """The plant's true state at the latch of the last observation."""
+
+    hand_position_m: list[float]
+    hand_force_n: list[float]
+    joint_position_rad: list[float]
+    joint_velocity_rad_per_s: list[float]
+    tip_position_m: list[float]
+    tip_velocity_m_per_s: list[float]
+    motor_current_a: list[float]
+    motor_torque_nm: list[float]
+    brake_torque_nm: list[float]
+    winding_c: list[float]
+
+def check_model(device_json: str, twin_json: str) -> None:
+    """ValueError naming the key that is unknown or makes no sense. `twin_json` may be `null`."""
+
+class Plant:
+    """A twin as a board sees it. ValueError: the models do not fit."""
+
+    def __init__(self, device_json: str, twin_json: str, rate_hz: float, seed: int) -> None: ...
+    def step(self, command: bytes | bytearray | memoryview) -> bytes:
+        """One tick under a command (10 float64: enable, motor_v, motor_torque_nm, brake_torque_nm).
+
+        Returns the observation latched at its start, `struct` format `<QQ3q3dd3dQ`.
+        """
+    def hand(self, script_json: str) -> None: ...
+    def truth(self) -> TwinTruth: ...
+
+class Simulation:
+    """Controller and twin in closed loop. ValueError: the models do not fit."""
+
+    def __init__(self, device_json: str, twin_json: str, rate_hz: float, seed: int) -> None: ...
+    def request(self, request_json: str) -> int:
+        """Carries out what `Front.send` takes; returns the open interlocks that refuse it, 0 when applied."""
+    def run(self, ticks: int) -> bytes:
+        """Records of the next ticks, one after the other."""
+    def truth(self) -> TwinTruth: ...

@@ -1,5 +1,6 @@
 //! Binding of the twin crate: a plant alone, and the loop closed over one.
 
+use hapticd_control::check::check;
 use hapticd_control::controller::{Controller, TickInput};
 use hapticd_control::io::{Axes, Command, Observation};
 use hapticd_control::model::DeviceModel;
@@ -20,8 +21,23 @@ const OBSERVATION_BYTES: usize = 13 * 8;
 
 /// Adds this module's names to `hapticd._core`.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(check_model, module)?)?;
     module.add_class::<Plant>()?;
     module.add_class::<Simulation>()
+}
+
+/// Rate at which a model is checked that is not driven yet, Hz.
+const CHECK_RATE_HZ: f64 = 1000.0;
+
+/// Checks a device model and, unless it is `null`, its twin.
+#[pyfunction]
+fn check_model(device_json: &str, twin_json: &str) -> PyResult<()> {
+    let device: DeviceModel = serde_json::from_str(device_json).map_err(value_error)?;
+    check(&device, CHECK_RATE_HZ).map_err(value_error)?;
+    let twin: Option<TwinModel> = serde_json::from_str(twin_json).map_err(value_error)?;
+    twin.map_or(Ok(()), |twin| {
+        twin.check(&device, CHECK_RATE_HZ).map_err(value_error)
+    })
 }
 
 /// A twin as a board sees it: commands in, observations out.
