@@ -3,7 +3,7 @@
 
 use crate::actuator::Supply;
 use crate::linear::{M3, V3};
-use crate::model::{BrakeModel, LimitModel};
+use crate::model::LimitModel;
 use crate::record::limit;
 
 /// What the bounds depend on in one tick.
@@ -159,9 +159,9 @@ fn limited_again(slewed_nm: &V3, share: f64, bounds: &Bounds<'_>) -> Bounded {
 /// What one brake is asked, and what it meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BrakeAsk {
-    /// Torque asked, N·m.
+    /// Torque asked, faded, N·m.
     pub asked_nm: f64,
-    /// Torque asked in the last tick, N·m.
+    /// Torque sent in the last tick, N·m.
     pub before_nm: f64,
     /// Joint torque wanted, τ_d, N·m.
     pub wanted_nm: f64,
@@ -169,31 +169,27 @@ pub struct BrakeAsk {
     pub qd: f64,
     /// Largest torque of the brake, N·m.
     pub max_nm: f64,
+    /// Largest rise in one tick, N·m.
+    pub rise_nm: f64,
+    /// |q̇| below which its sign is noise, rad/s.
+    pub omega_off: f64,
 }
 
-/// Bounds one brake: 0…max (law 1), faded (law 2), rising no faster than its slew limit (law 3),
-/// and nothing in the direction of motion, whatever the allocation decided (law 7).
+/// Bounds one brake: 0…max (law 1), rising no faster than its slew limit (law 3), and nothing in
+/// the direction of motion, whatever the allocation decided (law 7). Letting go is never slowed.
 #[must_use]
-pub fn bound_brake(
-    ask: &BrakeAsk,
-    model: &BrakeModel,
-    limits: &LimitModel,
-    fade: f64,
-    period_s: f64,
-) -> f64 {
-    if !dissipates(ask.wanted_nm, ask.qd, model.omega_off_rad_per_s) {
+pub fn bound_brake(ask: &BrakeAsk) -> f64 {
+    if !dissipates(ask.wanted_nm, ask.qd, ask.omega_off) {
         return 0.0;
     }
-    let rise_nm = limits.brake_slew_nm_per_s * period_s;
     // `max` first: it turns a NaN into zero.
-    (fade * ask.asked_nm)
+    ask.asked_nm
         .max(0.0)
         .min(ask.max_nm)
-        .min(ask.before_nm + rise_nm)
+        .min(ask.before_nm + ask.rise_nm)
 }
 
 /// Whether a brake may act: not while the joint moves the way its torque is wanted (law 7).
-/// Below `omega_off` the sign of q̇ is noise.
 #[must_use]
 pub fn dissipates(wanted_nm: f64, qd: f64, omega_off: f64) -> bool {
     qd.abs() <= omega_off || wanted_nm * qd < 0.0

@@ -105,6 +105,11 @@ impl FaultSet {
     pub const fn from_bits(bits: u64) -> Self {
         Self(bits)
     }
+    /// The set of one fault.
+    #[must_use]
+    pub const fn of(fault: Fault) -> Self {
+        Self(1 << fault as u8)
+    }
     /// The bits of the set.
     #[must_use]
     pub const fn bits(self) -> u64 {
@@ -132,9 +137,13 @@ impl FaultSet {
                 .iter()
                 .any(|info| info.severity == severity && self.contains(info.fault))
         };
-        [Severity::StopNow, Severity::SoftStop, Severity::BlocksEnabling]
-            .into_iter()
-            .find(|severity| among(*severity))
+        [
+            Severity::StopNow,
+            Severity::SoftStop,
+            Severity::BlocksEnabling,
+        ]
+        .into_iter()
+        .find(|severity| among(*severity))
     }
 }
 

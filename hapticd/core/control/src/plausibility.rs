@@ -18,8 +18,10 @@ pub enum Reading {
     },
     /// Nothing new: go on with the last command.
     Coast,
-    /// Nothing to go on with.
-    Absent,
+    /// There was none, and nothing to go on with.
+    Nothing,
+    /// There is one, and it cannot be true.
+    Disbelieved,
 }
 
 /// A reading, and the faults found in it.
@@ -115,7 +117,7 @@ impl Plausibility {
         self.believed = None;
         self.missing = 0;
         Verdict {
-            reading: Reading::Absent,
+            reading: Reading::Nothing,
             faults: FaultSet::default(),
         }
     }
@@ -149,7 +151,7 @@ impl Plausibility {
         if faults.severity() == Some(Severity::StopNow) {
             // The next observation starts anew: this one says nothing about where it will be.
             self.believed = None;
-            reading = Reading::Absent;
+            reading = Reading::Disbelieved;
         } else {
             self.believe(observation, t_mono_ns);
         }

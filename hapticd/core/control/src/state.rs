@@ -137,9 +137,7 @@ impl Machine {
     #[must_use]
     pub fn lose(mut self) -> Self {
         if self.state != State::Offline {
-            let mut lost = FaultSet::default();
-            lost.insert(Fault::DeviceLost);
-            self = self.raise(lost);
+            self = self.raise(FaultSet::of(Fault::DeviceLost));
         }
         self.state = State::Offline;
         self
@@ -151,9 +149,7 @@ impl Machine {
     pub fn home(mut self, homed: bool) -> Self {
         let in_use = matches!(self.state, State::Enabled | State::Paused);
         if in_use && !homed {
-            let mut faults = FaultSet::default();
-            faults.insert(Fault::Encoder);
-            self = self.raise(faults);
+            self = self.raise(FaultSet::of(Fault::Encoder));
         }
         self.homed = homed;
         self
