@@ -78,6 +78,7 @@ class EventLog:
     def __init__(self, directory: Path) -> None:
         self._file = directory / "events.jsonl"
         self._older = directory / "events.1.jsonl"
+        _end_last_line(self._file)
         self._recent: deque[Event] = deque(_read(self._older, self._file), maxlen=KEPT_IN_MEMORY)
         last_id = self._recent[-1].id if self._recent else 0
         self._ids = itertools.count(last_id + 1)
@@ -150,3 +151,10 @@ def _read(*files: Path) -> Iterator[Event]:
             except ValidationError:
                 # A line cut short by a power failure; the others stand.
                 log.warning("event line unreadable", file=str(file))
+
+
+def _end_last_line(file: Path) -> None:
+    """Ends a line that a power failure cut short, so that it does not take the next event with it."""
+    if file.exists() and not file.read_bytes().endswith(b"\n"):
+        with file.open("ab") as log_file:
+            log_file.write(b"\n")

@@ -76,9 +76,10 @@ class SceneStore:
     def _set_aside(self, error: Exception) -> CorruptScene:
         moved_to = self._file.with_name(f"{self._file.name}.corrupt-{datetime.now(UTC):%Y%m%dT%H%M%SZ}")
         self._file.replace(moved_to)
-        # Two past the last readable one: the unreadable one had the number between, and no revision is used
-        # twice.
-        return CorruptScene(str(error), moved_to, StoredScene(revision=self._last_good_revision() + 2))
+        # The unreadable one had the number after the last good one; no number is used twice.
+        empty = StoredScene(revision=self._last_good_revision() + 2)
+        self.save(empty)
+        return CorruptScene(str(error), moved_to, empty)
 
     def _last_good_revision(self) -> int:
         try:

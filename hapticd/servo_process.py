@@ -94,8 +94,8 @@ class ServoProcess:
 def _servo_config(config: DeviceConfig, model: Model, region: Path) -> dict[str, Any]:
     return {
         "device_id": config.id,
-        "device": json.loads(model.device_json),
-        "twin": json.loads(model.twin_json) if config.is_twin else None,
+        "device_model": json.loads(model.device_json),
+        "twin_model": json.loads(model.twin_json) if config.is_twin else None,
         "driver": config.driver,
         "options": config.options,
         "rate_hz": config.rate_hz,
