@@ -77,9 +77,3 @@ class Link:
         self.counters.frames += 1
         self._ack = frame.seq
         return frame
-
-
-def forward_distance(newer: int, older: int, bits: int) -> int:
-    """Signed distance from `older` to `newer` on a counter of `bits` bits that wraps."""
-    half = 1 << (bits - 1)
-    return (newer - older + half & (1 << bits) - 1) - half

@@ -31,6 +31,8 @@ FAULT_HARDWARE: Final = 1 << 15
 
 ENABLE_GLOBAL: Final = 1 << 15
 CONTROL_CLEAR_FAULTS: Final = 1 << 0
+CONTROL_DESCRIBE: Final = 1 << 1
+CONTROL_AT_NEXT_TICK: Final = 1 << 2
 
 UNIT_VOLT: Final = 1
 UNIT_MILLIAMPERE: Final = 2
@@ -145,7 +147,7 @@ class Description(NamedTuple):
         v = _DESCRIPTION.unpack(payload)
         units = tuple(nibble for byte in v[9] for nibble in (byte & 0xF, byte >> 4))
         name = v[22].decode("ascii", "replace").rstrip(" \0")
-        return cls(*v[:9], units, v[10:18], *v[18:22], name)
+        return cls._make((*v[:9], units, v[10:18], *v[18:22], name))
 
     def ai_volts_per_lsb(self) -> float:
         """Scale of the analogue inputs, V per LSB; the converter is bipolar."""
@@ -156,7 +158,7 @@ class Item(IntEnum):
     """CONFIG items."""
 
     WATCHDOG = 1  # a: timeout, 100 µs
-    TICK = 2  # a: rate, Hz; 0 is host-paced
+    TICK = 2  # a: rate, Hz; 0 is host-paced, then b: the rate the host intends, Hz
     AO_CLAMP = 3  # a, b: lowest and highest, LSB
     AO_SAFE = 4  # a: value while safe, LSB
     AO_SLEW = 5  # a: largest change per tick, LSB; 0 is unlimited

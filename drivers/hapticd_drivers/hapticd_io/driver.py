@@ -1,0 +1,184 @@
+"""Driver of a board that speaks the hapticd I/O frame over a serial port (docs/io-frame.md)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+from hapticd_drivers.error import DeviceLost, NoAnswer, WrongDevice
+from hapticd_drivers.hapticd_io.frame import FLAG_RESYNC, Frame, Kind
+from hapticd_drivers.hapticd_io.handshake import configure, describe
+from hapticd_drivers.hapticd_io.link import Link
+from hapticd_drivers.hapticd_io.needs import Needs
+from hapticd_drivers.hapticd_io.observation import Observer
+from hapticd_drivers.hapticd_io.options import Options
+from hapticd_drivers.hapticd_io.protocol import (
+    CONTROL_CLEAR_FAULTS,
+    ENABLE_GLOBAL,
+    STATUS_SAFE,
+    WATCHDOG_UNIT_S,
+    Command,
+    State,
+)
+from hapticd_drivers.hapticd_io.timeline import Timeline
+from hapticd_drivers.hapticd_io.wiring import Wiring
+from hapticd_drivers.transport import ByteTransport, SerialTransport
+
+if TYPE_CHECKING:
+    from hapticd.model import Model
+
+FRESH: Final = 0
+MISSING: Final = 1
+DOWN: Final = 2
+
+SILENCE_S: Final = 1.0
+"""Without a STATE for this long the connection is made anew."""
+
+
+class HapticdIo:
+    """One board. `connect` and `close` from a thread that may wait, `exchange` from the loop."""
+
+    def __init__(
+        self,
+        options: Options,
+        needs: Needs,
+        transport: ByteTransport,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.identity = ""
+        self._options = options
+        self._needs = needs
+        self._transport = transport
+        self._clock = clock
+        self._uid = options.uid
+        self._link = Link()
+        self._timeline = Timeline()
+        self._watchdog = round(options.watchdog_s / WATCHDOG_UNIT_S)
+        self._idle = Command(watchdog=self._watchdog).pack()
+        self._clear = Command(watchdog=self._watchdog, control=CONTROL_CLEAR_FAULTS).pack()
+        self._answers_at_once = options.pacing == "host"
+        self._torn = False
+        self._missing = 0
+        self._late = 0
+        self._reset()
+
+    def _reset(self) -> None:
+        """Forgets what was known about a board that may have restarted."""
+        self._armed = False
+        self._clearing = False
+        self._blocked = True
+        self._alive_at = self._clock()
+
+    def connect(self) -> None:
+        """Opens the port, makes sure of the board, and configures it.
+
+        Raises:
+            DeviceLost, NoAnswer, WrongDevice: why it cannot be used; the port is closed again.
+        """
+        self.close()
+        self._link = Link(self._link.counters)
+        self._transport.open()
+        try:
+            board = describe(self._link, self._transport, self._clock)
+            if self._uid not in (None, board.uid):
+                raise WrongDevice(f"board {board.uid.hex()} answers, {self._uid.hex()} is configured")
+            self._wiring = Wiring(self._options, self._needs, board)
+            configure(self._link, self._transport, self._clock, self._options, self._wiring.outputs, board)
+        except (DeviceLost, NoAnswer, WrongDevice):
+            self._transport.close()
+            raise
+        self._uid = board.uid
+        self.identity = (
+            f"{board.name} {board.uid.hex()} firmware {board.firmware >> 8}.{board.firmware & 0xFF:02d}"
+        )
+        self._observer = Observer(self._wiring)
+        self._timeline.anchor(int(self._clock() * 1e9))
+        self._reset()
+
+    def exchange(self, command: memoryview, observation: memoryview) -> int:
+        """Sends ten doubles, fills `observation` with the newest STATE; never waits past the tick.
+
+        Returns:
+            `FRESH`, `MISSING` (nothing new; `observation` is untouched) or `DOWN` (connect anew).
+        """
+        try:
+            self._send(command)
+            state = self._newest()
+        except DeviceLost:
+            return DOWN
+        if state is None:
+            self._missing += 1
+            return MISSING if self._clock() - self._alive_at < SILENCE_S else DOWN
+        self._blocked = state.fault != 0 or state.status & STATUS_SAFE != 0
+        self._observer.write(state, self._timeline, self._armed, observation)
+        return FRESH
+
+    def close(self) -> None:
+        """Lets the port go at once; the board's watchdog makes the outputs safe."""
+        self._transport.close()
+
+    def statistics(self) -> dict[str, int]:
+        """Counts since the driver was made."""
+        counters = self._link.counters
+        return {
+            "frames": counters.frames,
+            "checksum_errors": counters.checksum_errors,
+            "malformed": counters.malformed,
+            "lost": self._timeline.lost,
+            "stale": self._timeline.stale,
+            "late": self._late,
+            "missing": self._missing,
+        }
+
+    def _send(self, command: memoryview) -> None:
+        enable, raw = self._wiring.to_outputs(command)
+        self._armed = enable and (self._armed or not self._blocked)
+        if self._armed:
+            payload = Command(self._watchdog, ENABLE_GLOBAL | self._wiring.enable_mask, tuple(raw)).pack()
+        else:
+            # Clearing acts on the rising edge, so the bit alternates until the board is clear.
+            self._clearing = self._blocked and not self._clearing
+            payload = self._clear if self._clearing else self._idle
+        wire = self._link.send(Kind.COMMAND, payload)
+        if self._torn:
+            wire = b"\0" + wire
+        self._torn = self._transport.write(wire) < len(wire)
+
+    def _newest(self) -> State | None:
+        """The newest STATE; host-paced, the one that answers the command just sent if it comes in time."""
+        newest: Frame | None = None
+        wait_s = self._options.reply_timeout_s if self._answers_at_once else 0.0
+        deadline = self._clock() + self._options.reply_timeout_s
+        while True:
+            for frame in self._link.receive(self._transport.read(wait_s)):
+                newest = self._take(frame) or newest
+            if newest is not None and (not self._answers_at_once or newest.ack == self._link.seq):
+                break
+            wait_s = deadline - self._clock()
+            if wait_s <= 0.0:
+                self._late += newest is not None
+                break
+        if newest is None:
+            return None
+        self._alive_at = self._clock()
+        return State.unpack(newest.payload)
+
+    def _take(self, frame: Frame) -> Frame | None:
+        if frame.flags & FLAG_RESYNC:
+            raise DeviceLost("the board restarted")
+        if frame.kind is not Kind.STATE:
+            self._timeline.pass_by(frame.seq)
+            return None
+        return frame if self._timeline.advance(frame.seq) else None
+
+
+def create(options: Mapping[str, Any], model: Model) -> HapticdIo:
+    """The driver of a configured device.
+
+    Raises:
+        OptionError: an option is missing, unknown or out of range.
+    """
+    needs = Needs.of(model.device_json)
+    parsed = Options.parse(options, needs)
+    return HapticdIo(parsed, needs, SerialTransport(parsed.port, parsed.baud))
