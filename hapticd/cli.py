@@ -1,6 +1,7 @@
 """The command line: `run` and `doctor` are here, the others come by entry point.
 
-A package adds commands by naming a ``typer.Typer`` in the entry point group ``hapticd.commands``.
+A package adds commands by naming a ``typer.Typer`` in the entry point group ``hapticd.commands``. What a
+command needs is imported inside it, so that the others start without it.
 """
 
 from __future__ import annotations
@@ -11,18 +12,18 @@ from contextlib import contextmanager
 from dataclasses import asdict
 from importlib.metadata import entry_points, version
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 from rich.markup import escape
 
-from hapticd.doctor import Finding, Verdict, examine
-from hapticd.problem import Problem
+if TYPE_CHECKING:
+    from hapticd.doctor import Finding
 
 GROUP = "hapticd.commands"
 DAEMON = "The daemon"
-MARKS = {Verdict.OK: "[green]✓[/]", Verdict.WARN: "[yellow]![/]", Verdict.FAIL: "[bold red]✗[/]"}
+MARKS = {"ok": "[green]✓[/]", "warn": "[yellow]![/]", "fail": "[bold red]✗[/]"}
 
 ConfigOption = Annotated[
     Path | None,
@@ -43,16 +44,20 @@ console = Console(highlight=False)
 error_console = Console(stderr=True, highlight=False)
 
 
-@app.callback()
-def hapticd(
-    version_wanted: Annotated[
-        bool, typer.Option("--version", help="Print the version", is_eager=True)
-    ] = False,
-) -> None:
-    """The service that owns haptic devices: walls over HTTP, every tick streamed."""
-    if version_wanted:
+def _print_version(wanted: bool) -> None:
+    if wanted:
         print(version("hapticd"))
-        raise typer.Exit()
+        raise typer.Exit
+
+
+VersionOption = Annotated[
+    bool, typer.Option("--version", help="Print the version", is_eager=True, callback=_print_version)
+]
+
+
+@app.callback()
+def hapticd(_: VersionOption = False) -> None:
+    """The service that owns haptic devices: walls over HTTP, every tick streamed."""
 
 
 @app.command(rich_help_panel=DAEMON)
@@ -72,6 +77,8 @@ def run(config: ConfigOption = None, twin: TwinOption = False, port: PortOption 
 @app.command(rich_help_panel=DAEMON)
 def doctor(config: ConfigOption = None, as_json: JsonOption = False) -> None:
     """Examine installation, configuration and machine; name what is wrong and what cures it."""
+    from hapticd.doctor import Verdict, examine
+
     findings = list(examine(config))
     if as_json:
         print(json.dumps([asdict(finding) for finding in findings], indent=2, ensure_ascii=False))
@@ -100,6 +107,8 @@ def _add_commands(to: typer.Typer) -> None:
 @contextmanager
 def _reported() -> Iterator[None]:
     """Shows a problem as title, what happened, and cure, and ends the command."""
+    from hapticd.problem import Problem
+
     try:
         yield
     except Problem as problem:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from clients.daemon_double import DaemonDouble
 from typer.testing import CliRunner, Result
 
 import hapticd_client.terminal
 from hapticd_client import Client
 from hapticd_client.commands import app
+from tests.clients.daemon_double import DaemonDouble
 
 Run = Callable[..., Result]
 

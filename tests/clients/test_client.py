@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import httpx
 import pytest
-from clients.daemon_double import DaemonDouble, device, problem
 
 from hapticd_client import Client, NotHapticd, Refused, Unreachable, plane
+from tests.clients.daemon_double import DaemonDouble, device, problem
 
 FLOOR = plane("floor", point_m=[0.0, 0.0, -0.02], normal=[0.0, 0.0, 1.0])
 

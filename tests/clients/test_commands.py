@@ -8,8 +8,9 @@ from typing import Any
 
 import httpx
 import pytest
-from clients.daemon_double import DaemonDouble, device, problem
 from typer.testing import Result
+
+from tests.clients.daemon_double import DaemonDouble, device, problem
 
 Run = Callable[..., Result]
 FLOOR_PATH = "/api/v1/devices/phantom/scene/walls/floor"

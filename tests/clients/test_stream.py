@@ -10,12 +10,12 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from clients.daemon_double import device, problem
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
 from hapticd_client import NotHapticd, Refused, StreamClosed, Unreachable, open_stream
 from hapticd_client.stream import Data, Happening, Snapshot
+from tests.clients.daemon_double import device, problem
 
 WELCOME = {"type": "welcome", "version": 1, "devices": [{"id": "phantom"}, {"id": "hhd"}], "signals": []}
 DATA = {
