@@ -3,6 +3,9 @@
 use pyo3::prelude::*;
 
 mod control;
+mod driver;
+mod front;
+mod parking;
 mod schema;
 mod servo;
 mod twin;
@@ -13,6 +16,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     schema::register(module)?;
     control::register(module)?;
     twin::register(module)?;
+    front::register(module)?;
     servo::register(module)?;
     Ok(())
 }

@@ -88,8 +88,8 @@ impl<'a> Decoder<'a> {
 
     /// The next `N` words; `None` past the end.
     pub fn array<const N: usize>(&mut self) -> Option<[u64; N]> {
-        let (head, rest) = self.words.split_at_checked(N)?;
-        self.words = rest;
-        head.try_into().ok()
+        let head = self.words.get(..N)?.try_into().ok()?;
+        self.words = &self.words[N..];
+        Some(head)
     }
 }

@@ -175,6 +175,8 @@ impl Region {
             (header::BOOT_ID.start, (boot >> 64) as u64),
             (header::BOOT_ID.start + 1, boot as u64),
             (header::TWIN, u64::from(identity.twin)),
+            // A front that attaches before the first tick finds the servo alive.
+            (live::SERVO_HEARTBEAT, clock::monotonic_ns()),
             (header::MAGIC, MAGIC),
         ];
         for (at, value) in fields {
