@@ -30,7 +30,7 @@ async def list_events(
     after: Annotated[int, Query(ge=0, description="Only events with a greater id")] = 0,
     limit: Annotated[int, Query(ge=1, le=PAGE_MAX)] = PAGE_DEFAULT,
 ) -> EventPage:
-    """Events after a given one, oldest first. Ids rise also across restarts: a watcher resumes without a gap."""
+    """Events after a given one, oldest first. Ids rise also across restarts: a watcher can resume."""
     events = station.events.after(after, limit)
     last_id = events[-1].id if events else after
     return EventPage(events=events, last_id=last_id, oldest_kept_id=station.events.oldest_id)

@@ -73,7 +73,7 @@ async def patch_scene(
     if_match: IfMatch = None,
     dry_run: DryRun = False,
 ) -> Response:
-    """Merges a JSON merge patch (RFC 7396) into the scene; what it does not name stays, lists are replaced."""
+    """Merges a JSON merge patch (RFC 7396) into the scene; what it does not name stays, lists are whole."""
 
     def change(scene: Scene) -> Scene:
         return checked(Scene, merged(scene.model_dump(mode="json"), patch))

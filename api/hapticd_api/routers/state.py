@@ -71,6 +71,6 @@ async def get_state(device: DeviceDep) -> StateReport:
     ),
 )
 async def set_state(device: DeviceDep, request: StateRequest) -> StateReport:
-    """Asks for a state. Enabling ramps the forces up; leaving it fades them out. 409 names the open interlocks."""
+    """Asks for a state. Enabling ramps forces up, leaving it fades them out. 409 names open interlocks."""
     applied = await device.set_desired(request.desired)
     return state_report(device, applied)

@@ -19,7 +19,7 @@ class SystemRealtime(Report):
 
 @router.get("/realtime", operation_id="get_realtime", summary="Real-time behaviour")
 async def get_realtime(station: StationDep) -> SystemRealtime:
-    """The scheduling really obtained, histograms of lateness, exchange and computation, and the deadlines missed."""
+    """The scheduling really obtained, histograms of every phase of a tick, and the deadlines missed."""
     return SystemRealtime(
         devices={device_id: device.realtime() for device_id, device in station.devices.items()}
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body
+from pydantic import RootModel
 
 from hapticd.hand import HandScript
 from hapticd.injection import Injection
@@ -42,6 +43,14 @@ _INJECTION_EXAMPLES: dict[str, Any] = {
 }
 
 
+class HandDocument(RootModel[HandScript]):
+    """What the simulated hand shall do. `{"target_m": […]}` alone is a point to follow."""
+
+
+class InjectionDocument(RootModel[Injection]):
+    """What shall break, and for how long."""
+
+
 class HandReport(Report):
     """What the simulated hand was told to do."""
 
@@ -62,9 +71,9 @@ class InjectionReport(Report):
     summary="What the simulated hand does",
     responses=problem_answers("device-not-found", "not-a-twin"),
 )
-async def get_hand(device: DeviceDep) -> HandScript:
-    """The script the hand follows now."""
-    return device.hand
+async def get_hand(device: DeviceDep) -> HandDocument:
+    """What the hand was last told."""
+    return HandDocument(device.hand)
 
 
 @router.put(
@@ -74,10 +83,10 @@ async def get_hand(device: DeviceDep) -> HandScript:
     responses=problem_answers(*_WRITE_ERRORS, "dimension-mismatch"),
 )
 async def set_hand(
-    device: DeviceDep, script: Annotated[HandScript, Body(openapi_examples=_HAND_EXAMPLES)]
+    device: DeviceDep, script: Annotated[HandDocument, Body(openapi_examples=_HAND_EXAMPLES)]
 ) -> HandReport:
-    """Hold, follow a point, push, stroke, reach, let go. The hand is limp: walls and the device push it back."""
-    applied = await device.set_hand(script)
+    """Hold, follow a point, push, stroke, reach, let go. Walls and the device push the hand back."""
+    applied = await device.set_hand(script.root)
     return HandReport(hand=device.hand, applied=applied)
 
 
@@ -88,7 +97,7 @@ async def set_hand(
     responses=problem_answers(*_WRITE_ERRORS),
 )
 async def inject_fault(
-    device: DeviceDep, injection: Annotated[Injection, Body(openapi_examples=_INJECTION_EXAMPLES)]
+    device: DeviceDep, injection: Annotated[InjectionDocument, Body(openapi_examples=_INJECTION_EXAMPLES)]
 ) -> InjectionReport:
     """Breaks the simulated hardware for a while, to see how everything above it takes that."""
-    return InjectionReport(injection=injection, applied=await device.inject(injection))
+    return InjectionReport(injection=injection.root, applied=await device.inject(injection.root))

@@ -51,7 +51,7 @@ class WallList(Report):
 
 
 class WallResult(Report):
-    """The outcome of an edit of one wall: null once it is gone. `applied` is null while no loop has taken it."""
+    """The outcome of an edit of one wall. `wall` is null once gone, `applied` while no loop has taken it."""
 
     wall: Wall | None
     stiffness_n_per_m: float | None = None

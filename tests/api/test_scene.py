@@ -1,0 +1,148 @@
+"""Scenes and walls: conditional, dry, whole, and ready to be read, edited and sent back."""
+
+from __future__ import annotations
+
+import httpx
+
+from tests.api.conftest import Rig
+from tests.api.documents import floor
+from tests.api.test_problems import problem_of
+
+SCENE = "/api/v1/devices/phantom/scene"
+WALLS = f"{SCENE}/walls"
+
+
+async def test_scene_as_it_is_read_can_be_sent_back(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    read = await http.get(SCENE)
+    response = await http.put(SCENE, json=read.json(), headers={"If-Match": read.headers["etag"]})
+    assert response.status_code == 200
+    assert response.json()["scene"] == read.json()
+
+
+async def test_write_tells_the_tick_and_the_new_revision(http: httpx.AsyncClient, rig: Rig) -> None:
+    response = await http.put(f"{WALLS}/floor", json=floor())
+    result = response.json()
+    assert response.status_code == 201
+    assert result["applied"]["tick"] > 0
+    assert result["applied"]["fade_s"] == 0.2
+    assert result["stiffness_n_per_m"] == 1500.0
+    assert response.headers["etag"] == result["etag"] == f'"{result["revision"]}"'
+    sent = rig.servos["phantom"].requests[-1]["scene"]
+    assert sent["revision"] == result["revision"]
+    assert sent["walls"] == [{"normal": [0.0, 0.0, 1.0], "offset_m": -0.02, "eta": 0.0}]
+
+
+async def test_second_put_replaces_and_says_so(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    response = await http.put(f"{WALLS}/floor", json=floor(law={"type": "motion", "eta": 0.5}))
+    assert response.status_code == 200
+    assert response.json()["stiffness_n_per_m"] == 750.0
+    assert [wall["id"] for wall in (await http.get(WALLS)).json()["walls"]] == ["floor"]
+
+
+async def test_wall_takes_its_name_from_the_address(http: httpx.AsyncClient) -> None:
+    document = floor()
+    del document["id"]
+    assert (await http.put(f"{WALLS}/left", json=document)).json()["wall"]["id"] == "left"
+
+
+async def test_put_that_must_make_a_wall_does_not_replace_one(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    response = await http.put(f"{WALLS}/floor", json=floor(), headers={"If-None-Match": "*"})
+    problem_of(response, 409, "wall-exists")
+
+
+async def test_post_makes_a_wall_once_and_says_where(http: httpx.AsyncClient) -> None:
+    response = await http.post(WALLS, json=floor())
+    assert response.status_code == 201
+    assert (await http.get(response.headers["location"])).json()["id"] == "floor"
+    problem_of(await http.post(WALLS, json=floor()), 409, "wall-exists")
+
+
+async def test_patch_of_a_wall_keeps_what_it_does_not_name(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    wall = (await http.patch(f"{WALLS}/floor", json={"law": {"eta": 0.25}})).json()["wall"]
+    assert wall["law"] == {"type": "motion", "eta": 0.25}
+    assert wall["shape"]["point_m"] == [0, 0, -0.02]
+
+
+async def test_patch_cannot_make_a_wall_invalid_or_rename_it(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    response = await http.patch(f"{WALLS}/floor", json={"law": {"eta": 2}})
+    assert problem_of(response, 422, "invalid-document")["pointer"] == "/law/eta"
+    response = await http.patch(f"{WALLS}/floor", json={"id": "ceiling"})
+    assert problem_of(response, 422, "invalid-document")["pointer"] == "/id"
+    problem_of(await http.patch(f"{WALLS}/lid", json={}), 404, "wall-not-found")
+
+
+async def test_patch_of_a_scene_keeps_its_walls(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    headers = {"Content-Type": "application/merge-patch+json"}
+    response = await http.patch(SCENE, content='{"mapping": "inverse"}', headers=headers)
+    scene = response.json()["scene"]
+    assert scene["mapping"] == "inverse"
+    assert [wall["id"] for wall in scene["walls"]] == ["floor"]
+
+
+async def test_deleted_wall_is_gone(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    response = await http.delete(f"{WALLS}/floor")
+    assert response.json()["wall"] is None
+    assert response.json()["applied"]["tick"] > 0
+    problem_of(await http.get(f"{WALLS}/floor"), 404, "wall-not-found")
+    problem_of(await http.delete(f"{WALLS}/floor"), 404, "wall-not-found")
+
+
+async def test_stale_edit_is_refused_and_changes_nothing(http: httpx.AsyncClient) -> None:
+    stale = (await http.get(SCENE)).headers["etag"]
+    await http.put(f"{WALLS}/floor", json=floor())
+    headers = {"If-Match": stale}
+    answers = [
+        await http.put(SCENE, json={"walls": []}, headers=headers),
+        await http.patch(SCENE, json={"walls": []}, headers=headers),
+        await http.put(f"{WALLS}/floor", json=floor(enabled=False), headers=headers),
+        await http.patch(f"{WALLS}/floor", json={"enabled": False}, headers=headers),
+        await http.delete(f"{WALLS}/floor", headers=headers),
+        await http.post(WALLS, json=floor(id="lid"), headers=headers),
+    ]
+    for answer in answers:
+        problem_of(answer, 412, "revision-stale")
+    assert (await http.get(f"{WALLS}/floor")).json()["enabled"] is True
+
+
+async def test_reader_with_the_present_revision_is_told_so(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    for path in (SCENE, WALLS, f"{WALLS}/floor"):
+        etag = (await http.get(path)).headers["etag"]
+        again = await http.get(path, headers={"If-None-Match": f'"x", W/{etag}'})
+        assert again.status_code == 304
+        assert again.content == b""
+        assert again.headers["etag"] == etag
+    await http.delete(f"{WALLS}/floor")
+    assert (await http.get(SCENE, headers={"If-None-Match": etag})).status_code == 200
+
+
+async def test_dry_run_checks_everything_and_changes_nothing(http: httpx.AsyncClient, rig: Rig) -> None:
+    etag = (await http.get(SCENE)).headers["etag"]
+    answers = [
+        await http.put(f"{WALLS}/floor?dry_run=true", json=floor()),
+        await http.post(f"{WALLS}?dry_run=true", json=floor()),
+        await http.put(f"{SCENE}?dry_run=true", json={"walls": [floor()]}),
+    ]
+    for answer in answers:
+        assert answer.status_code == 200
+        assert answer.json()["dry_run"] is True
+        assert answer.json()["applied"] is None
+    bad = await http.put(f"{WALLS}/floor?dry_run=true", json=floor(law={"type": "motion", "eta": 2}))
+    problem_of(bad, 422, "invalid-document")
+    assert (await http.get(SCENE)).headers["etag"] == etag
+    assert rig.servos["phantom"].requests == []
+
+
+async def test_edit_of_an_offline_device_is_kept_and_says_that_it_waits(http: httpx.AsyncClient) -> None:
+    wall = floor(shape={"type": "plane", "point_m": [0, 0.1], "normal": [0, 1]})
+    result = (await http.put("/api/v1/devices/bench/scene/walls/floor", json=wall)).json()
+    assert result["applied"] is None
+    assert "offline" in result["note"]
+    assert (await http.get("/api/v1/devices/bench/scene/walls/floor")).status_code == 200
