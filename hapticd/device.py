@@ -56,7 +56,6 @@ class Device:
 
     def __init__(self, config: DeviceConfig, model: Model, store: SceneStore, events: EventLog) -> None:
         self.device_id: str = config.id
-        self.model = model
         self.model: Model = model
         self.model_name: str = model.name
         self.dof: int = model.dof

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +20,17 @@ TERMINATE_S = 2.5
 
 LOG_TAIL_CHARS = 400
 
+PROGRAM = (sys.executable, "-m", "hapticd.servo")
+"""What is started; the configuration file follows."""
+
 
 class ServoProcess:
     """One device's servo, with its configuration, region and log in the runtime directory."""
 
-    def __init__(self, config: DeviceConfig, model: Model, runtime_dir: Path) -> None:
+    def __init__(
+        self, config: DeviceConfig, model: Model, runtime_dir: Path, program: Sequence[str] = PROGRAM
+    ) -> None:
+        self._program = program
         self.region = runtime_dir / f"{config.id}.shm"
         self._config_file = runtime_dir / f"{config.id}.json"
         self._log_file = runtime_dir / f"{config.id}.log"
@@ -51,9 +58,7 @@ class ServoProcess:
             # A session of its own: Ctrl-C at the terminal goes to the front alone, which fades forces out
             # first.
             self._process = await asyncio.create_subprocess_exec(
-                sys.executable,
-                "-m",
-                "hapticd.servo",
+                *self._program,
                 str(self._config_file),
                 stdin=asyncio.subprocess.DEVNULL,
                 stdout=log,

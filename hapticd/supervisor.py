@@ -7,7 +7,7 @@ import contextlib
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from hapticd import _core
 from hapticd.backoff import Backoff
@@ -16,7 +16,6 @@ from hapticd.device import Device
 from hapticd.events import EventLog
 from hapticd.heartbeat import Heartbeat
 from hapticd.problem import Problem
-from hapticd.servo_process import ServoProcess
 
 WATCH_S = 0.05
 READY_TIMEOUT_S = 10.0
@@ -26,6 +25,19 @@ STEADY_S = 30.0
 """A servo that ran this long was well: the next one is started without delay."""
 
 OpenLink = Callable[[Path], Link]
+
+
+class Servo(Protocol):
+    """The servo process: ``hapticd.servo_process.ServoProcess``, which documents each method."""
+
+    @property
+    def region(self) -> Path: ...
+    @property
+    def pid(self) -> int | None: ...
+    def configured_alike(self) -> bool: ...
+    async def launch(self) -> None: ...
+    def ending(self) -> str | None: ...
+    async def terminate(self) -> bool: ...
 
 
 class ServoFailed(Exception):
@@ -43,17 +55,19 @@ class Supervisor:
     def __init__(
         self,
         device: Device,
-        servo: ServoProcess,
+        servo: Servo,
         heartbeat: Heartbeat,
         events: EventLog,
+        *,
         open_link: OpenLink = open_front,
+        backoff: Backoff | None = None,
     ) -> None:
         self._device = device
         self._servo = servo
         self._heartbeat = heartbeat
         self._events = events
         self._open_link = open_link
-        self._backoff = Backoff()
+        self._backoff = backoff or Backoff()
         self._stopping = asyncio.Event()
 
     async def run(self) -> None:

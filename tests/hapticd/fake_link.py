@@ -49,7 +49,7 @@ class FakeLink:
         for _ in range(ticks):
             self.record["tick"] = len(self._ring)
             self.record["t_mono_ns"] = 1_000_000 * len(self._ring)
-            self.record["state"] = STATES.index(self.state)  # type: ignore[arg-type]  # a name of STATES
+            self.record["state"] = STATES.index(self.state)
             self.record["flags"] = self.estop << FLAGS.index("estop")
             self.record["faults"] = self.faults
             self._ring.append(self.record.tobytes())

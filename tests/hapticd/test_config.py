@@ -67,7 +67,10 @@ def test_every_key_is_read(tmp_path: Path) -> None:
     )
     (device,) = config.devices
     assert (config.api.host, config.api.port) == ("::1", 9000)
-    assert (str(config.paths.state_dir), str(config.paths.runtime_dir)) == ("/var/lib/hapticd", "/run/hapticd")
+    assert (str(config.paths.state_dir), str(config.paths.runtime_dir)) == (
+        "/var/lib/hapticd",
+        "/run/hapticd",
+    )
     assert device.model_dump() == {
         "id": "bench",
         "model": "hhd",
@@ -95,7 +98,10 @@ def test_every_key_is_read(tmp_path: Path) -> None:
         ("devices = []", "devices: "),
         ("[[devices]]\nid = 'a'", "devices.0.model: Field required."),
         ("[[devices]]\nid = 'A b'\nmodel = 'hhd'", "devices.0.id: "),
-        ("[[devices]]\nid = 'a'\nmodel = 'hhd'\nrate = 1", "devices.0.rate is not a key. Did you mean rate_hz?"),
+        (
+            "[[devices]]\nid = 'a'\nmodel = 'hhd'\nrate = 1",
+            "devices.0.rate is not a key. Did you mean rate_hz?",
+        ),
         ("[[devices]]\nid = 'a'\nmodel = 'hhd'\nrate_hz = 20", "devices.0.rate_hz: "),
         ("[[devices]]\nid = 'a'\nmodel = 'hhd'\nrealtime = 'yes'", "devices.0.realtime: "),
         ("[[devices]]\nid='a'\nmodel='hhd'\n[[devices]]\nid='a'\nmodel='hhd'", "Two devices have the id 'a'"),

@@ -11,7 +11,10 @@ from hapticd.events import EventLog
 
 def test_events_keep_their_numbers_across_restarts(tmp_path: Path) -> None:
     first = EventLog(tmp_path)
-    kept = [first.append("scene.changed", "One."), first.append("servo.lost", "Two.", device_id="hhd", tick=7)]
+    kept = [
+        first.append("scene.changed", "One."),
+        first.append("servo.lost", "Two.", device_id="hhd", tick=7),
+    ]
     second = EventLog(tmp_path)
     assert second.after(0) == kept
     assert second.append("daemon.started", "Three.").id == kept[-1].id + 1

@@ -123,7 +123,9 @@ def test_normal_off_by_rounding_reaches_the_loop_at_unit_length(
     assert math.isclose(math.hypot(*sent["normal"]), 1.0, abs_tol=1e-12)
     assert sent["normal"][2] == 0.0
     # The plane still goes through its point.
-    assert math.isclose(sent["normal"][0] * point[0] + sent["normal"][1] * point[1], sent["offset_m"], abs_tol=1e-12)
+    assert math.isclose(
+        sent["normal"][0] * point[0] + sent["normal"][1] * point[1], sent["offset_m"], abs_tol=1e-12
+    )
 
 
 def test_flat_scene_holds_enabled_walls_in_order_with_their_ids() -> None:
@@ -132,7 +134,11 @@ def test_flat_scene_holds_enabled_walls_in_order_with_their_ids() -> None:
             "mapping": "inverse",
             "stiffness": "workspace",
             "allocation": "brake_only",
-            "walls": [wall(id="a"), wall(id="b", enabled=False), wall(id="c", law={"type": "motion", "eta": 0.5})],
+            "walls": [
+                wall(id="a"),
+                wall(id="b", enabled=False),
+                wall(id="c", law={"type": "motion", "eta": 0.5}),
+            ],
         }
     )
     flat, ids = flatten(scene, 7, 0.25)

@@ -62,7 +62,9 @@ def test_power_failure_while_writing_leaves_the_old_scene(
         b"\xff\xfe",
         b'{"revision": 3, "scene": {"walls": [], "colour": 1}}',
         b'{"revision": -3}',
-        json.dumps({"revision": 3, "scene": {"walls": [WALL | {"law": {"type": "motion", "eta": 7}}]}}).encode(),
+        json.dumps(
+            {"revision": 3, "scene": {"walls": [WALL | {"law": {"type": "motion", "eta": 7}}]}}
+        ).encode(),
     ],
 )
 def test_unreadable_file_is_moved_aside_and_the_scene_is_empty(
