@@ -1,6 +1,10 @@
 """Types of the Rust core. One section per binding file in hapticd/core/py/src."""
 
-from typing import Any, Protocol, TypedDict
+from collections.abc import Sequence
+from typing import Any, Protocol, TypeAlias, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
 
 # ---------------------------------------------------------------------------------------------
 # front.rs: the front's end of a servo's shared memory
@@ -38,8 +42,10 @@ class ServoEvent(TypedDict):
     """Something worth telling; `details` depends on `kind`, integers and strings only.
 
     `started` · `state` {from, to} · `faults` {raised, latched} ·
-    `miss` {skipped, phase: wake|exchange|compute|publish, lateness_ns, exchange_ns, compute_ns} ·
-    `device` {link: fresh|missing|down} · `front` {alive} · `overflow` · `stopped` {reason}
+    `miss` {skipped, phase: wake|exchange|compute|rest, lateness_ns, exchange_ns, compute_ns} ·
+    `device` {link: fresh|down} · `front` {alive} · `garbled` (a broken request queue was emptied) ·
+    `overflow` {lost} (events that were overwritten before they were read) ·
+    `stopped` {reason: requested|orphaned}
     """
 
     seq: int
@@ -236,3 +242,68 @@ class Simulation:
     def run(self, ticks: int) -> bytes:
         """Records of the next ticks, one after the other."""
     def truth(self) -> TwinTruth: ...
+
+# ---------------------------------------------------------------------------------------------
+# control.rs: pure functions of the control core; shapes are (3,), or (3, 3) by rows
+# ---------------------------------------------------------------------------------------------
+
+_Axes: TypeAlias = Sequence[float] | NDArray[np.float64]
+_Rows: TypeAlias = Sequence[Sequence[float]] | NDArray[np.float64]
+_WallRow: TypeAlias = tuple[_Axes, float, float]
+"""Unit normal, offset in m, η."""
+
+class Kinematics:
+    """Geometry of one device model. ValueError: not a model."""
+
+    def __init__(self, device_json: str) -> None: ...
+    def forward(self, q: _Axes) -> list[float]: ...
+    def inverse(self, x: _Axes) -> list[float] | None:
+        """Joint angles; None where the linkage does not reach."""
+    def jacobian(self, q: _Axes) -> list[list[float]]: ...
+    def jacobian_inverse(self, q: _Axes) -> list[list[float]] | None:
+        """Zero in the unused row and column; None at a singularity."""
+    def singularity_margin(self, q: _Axes) -> float:
+        """sin of the angle to the nearest singularity."""
+    def inside(self, q: _Axes, margin_rad: float) -> bool: ...
+    def workspace_stiffness(self, k_q: _Axes) -> float:
+        """Smallest isotropic stiffness over the workspace, N/m."""
+    def joint_set_point(
+        self, mapping: str, *, q: _Axes, qd: _Axes, x_sd: _Axes, xd_sd: _Axes, k_q: _Axes, k_c: float
+    ) -> tuple[list[float], list[float]]:
+        """q_Sd and q̇_Sd by `transpose` or `inverse` mapping."""
+
+class SpringDrive:
+    """Spring drives of one device model. ValueError: not a model, or torque drives."""
+
+    def __init__(self, device_json: str) -> None: ...
+    def demand(self, *, q: _Axes, qd: _Axes, q_sd: _Axes, qd_sd: _Axes, dr_ohm: _Axes) -> list[list[float]]:
+        """Static joint torque N·m, tip force N, and e_W V."""
+    def dc_stiffness(self, dr_ohm: _Axes) -> list[float]:
+        """K_DC at the joints, N·m/rad."""
+
+class TorqueDrive:
+    """Torque drives of one device model. ValueError: not a model, or spring drives."""
+
+    def __init__(self, device_json: str) -> None: ...
+    def demand(self, *, q: _Axes, qd: _Axes, x_sd: _Axes, xd_sd: _Axes) -> list[list[float]]:
+        """Joint torque N·m and tip force N."""
+
+class Estimator:
+    """Velocity estimate of one device model. ValueError: not a model."""
+
+    def __init__(self, device_json: str) -> None: ...
+    def reset(self, counts: Sequence[int]) -> None: ...
+    def update(self, counts: Sequence[int], dt_s: float) -> list[list[float]]:
+        """q, q̇, x, ẋ after one more frame."""
+
+def lambda_max_sym(matrix: _Rows) -> float:
+    """Largest eigenvalue of a symmetric matrix."""
+
+def contact(walls: Sequence[_WallRow], x: _Axes) -> tuple[int, int | None, float, list[float]]:
+    """Walls in contact, index of the deepest, its depth in m and its normal."""
+
+def set_point(walls: Sequence[_WallRow], x: _Axes, xd: _Axes) -> tuple[list[float], list[float]]:
+    """x_Sd and ẋ_Sd of the Moreau envelope."""
+
+def isotropic_stiffness(jacobian: _Rows, k_q: _Axes) -> float:
+    """Largest k_c, N/m, within the joint stiffnesses k_q, N·m/rad."""
