@@ -1,0 +1,1 @@
+"""Numpy reference of the equations, written from the papers without a look at the core."""
