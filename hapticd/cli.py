@@ -90,15 +90,16 @@ def doctor(config: ConfigOption = None, as_json: JsonOption = False) -> None:
 
 def main() -> None:
     """Runs the command line with the commands of every installed package."""
-    _add_commands(app)
+    add_commands(app)
     app()
 
 
-def _add_commands(to: typer.Typer) -> None:
+def add_commands(to: typer.Typer) -> None:
+    """Adds the commands of every installed package; one that is broken is reported and left out."""
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
         try:
             to.add_typer(entry.load())
-        except Exception as error:  # one broken package must not take the command line away; it is reported
+        except Exception as error:  # a foreign package may raise anything at import
             error_console.print(
                 f"[yellow]![/] The commands of {escape(entry.value)} are missing: {escape(repr(error))}"
             )
