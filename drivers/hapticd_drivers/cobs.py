@@ -10,7 +10,7 @@ DELIMITER: Final = b"\0"
 FRAME_MAX_BYTES: Final = 253
 """Longest frame taken here: no block is ever full, so the 0xFF code never occurs."""
 
-_CODES: Final = tuple(bytes([length]) for length in range(256))
+_CODES: Final = tuple(bytes([code]) for code in range(FRAME_MAX_BYTES + 2))
 
 
 class StuffingError(ValueError):
@@ -33,15 +33,16 @@ def decode(stuffed: bytes) -> bytes:
     """Undoes `encode` for one frame given without its delimiter.
 
     Raises:
-        StuffingError: a code byte is zero, full, or points past the end.
+        StuffingError: a zero inside, too long, or a code that points past the end.
     """
-    blocks = []
-    start, end = 0, len(stuffed)
-    while start < end:
-        code = stuffed[start]
-        stop = start + code
-        if code in (0, 255) or stop > end:
-            raise StuffingError(f"code {code} at byte {start} of {end}")
-        blocks.append(stuffed[start + 1 : stop])
-        start = stop
-    return DELIMITER.join(blocks)
+    if 0 in stuffed or len(stuffed) > FRAME_MAX_BYTES + 1:
+        raise StuffingError(f"{len(stuffed)} bytes with a zero, or too many")
+    frame = bytearray(stuffed)
+    code_at, end = 0, len(frame)
+    while code_at < end:
+        code = frame[code_at]
+        frame[code_at] = 0
+        code_at += code
+    if code_at != end:
+        raise StuffingError(f"a code points to byte {code_at} of {end}")
+    return bytes(frame[1:])

@@ -55,6 +55,6 @@ def test_the_clock_runs_on_over_its_wrap(start: int, steps: list[int]) -> None:
 
 def test_a_clock_that_goes_back_is_not_hidden() -> None:
     timeline = Timeline()
-    timeline.anchor(0)
+    timeline.anchor(5_000_000)
     timeline.read_clock(1000)
-    assert timeline.read_clock(400) == timeline.t_ns < 1
+    assert timeline.read_clock(400) == timeline.t_ns == 4_400_000

@@ -50,13 +50,20 @@ class Observer:
 
     def write(self, state: State, timeline: Timeline, armed: bool, observation: memoryview) -> None:
         """Fills `observation`. `armed`: the driver has asked for live outputs."""
-        force, saturated = self._wiring.force.to_axes(state.analog_in)
-        current, _ = self._wiring.current.to_axes(state.analog_in)
-        status = self._present | status_bits(state, armed) | (SENSOR_SATURATED if saturated else 0)
-        counts = self._wiring.to_counts(state.counts)
-        t_ns = timeline.read_clock(state.t_us)
+        wiring, analog_in = self._wiring, state.analog_in
+        status = self._present | status_bits(state, armed)
+        if wiring.force.saturated(analog_in):
+            status |= SENSOR_SATURATED
         OBSERVATION.pack_into(
-            observation, 0, timeline.seq, t_ns, *counts, *force, _LATCH_AGE_S, *current, status
+            observation,
+            0,
+            timeline.seq,
+            timeline.read_clock(state.t_us),
+            *wiring.to_counts(state.counts),
+            *wiring.force.to_axes(analog_in),
+            _LATCH_AGE_S,
+            *wiring.current.to_axes(analog_in),
+            status,
         )
 
 

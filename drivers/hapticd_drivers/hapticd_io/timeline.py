@@ -42,7 +42,7 @@ class Timeline:
     def read_clock(self, wire_t_us: int) -> int:
         """Device time of the newest STATE, ns; goes backwards only if the board's clock does."""
         if self._wire_t_us is not None:
-            self.t_ns += 1000 * wrapped_distance(wire_t_us, self._wire_t_us, CLOCK_BITS)
+            self.t_ns = max(self.t_ns + 1000 * wrapped_distance(wire_t_us, self._wire_t_us, CLOCK_BITS), 0)
         self._wire_t_us = wire_t_us
         return self.t_ns
 

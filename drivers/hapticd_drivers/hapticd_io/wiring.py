@@ -63,10 +63,11 @@ class Wiring:
             ValueError, OverflowError: a value is not finite.
         """
         values = _COMMAND.unpack(command)
-        raw = [0] * AO_CHANNELS
+        outputs = [0] * AO_CHANNELS
         for source, channel, lsb_per_si, low, high in self.outputs:
-            raw[channel] = min(max(round(values[source] * lsb_per_si), low), high)
-        return values[0] != 0.0, raw
+            raw = round(values[source] * lsb_per_si)
+            outputs[channel] = low if raw < low else high if raw > high else raw
+        return values[0] != 0.0, outputs
 
     def to_counts(self, counts: Sequence[int]) -> list[int]:
         """Counts per axis; zero for axes the device does not have."""
@@ -74,26 +75,38 @@ class Wiring:
 
 
 class Scaling:
-    """Analogue inputs to axes: value = Σ gain · raw + offset."""
+    """Analogue inputs to axes: value = offset + Σ gain · raw."""
 
     def __init__(self, inputs: Inputs, board: Description) -> None:
         v_per_lsb = board.ai_volts_per_lsb()
         self.channels = inputs.channels
+        self.limit = (1 << (board.ai_bits - 1)) - 1
         self.gains = [[per_v * v_per_lsb for per_v in row] for row in inputs.per_v]
         self.offsets = [
             -sum(per_v * bias for per_v, bias in zip(row, inputs.bias_v, strict=True)) for row in inputs.per_v
         ]
-        self.limit = (1 << (board.ai_bits - 1)) - 1
-
-    def to_axes(self, raw: Sequence[int]) -> tuple[list[float], bool]:
-        """Values of three axes, and whether an input was at the end of its range."""
-        picked = [raw[channel] for channel in self.channels]
-        values = [
-            sum(map(float.__mul__, row, map(float, picked))) + offset
-            for row, offset in zip(self.gains, self.offsets, strict=True)
+        no_axis: list[tuple[float, list[tuple[int, float]]]] = [(0.0, [])]
+        self._rows = [
+            (offset, self._terms(row)) for offset, row in zip(self.offsets, self.gains, strict=True)
         ]
-        values += [0.0] * (AXES - len(values))
-        return values, any(abs(value) >= self.limit for value in picked)
+        self._rows += no_axis * (AXES - len(self._rows))
+
+    def _terms(self, row: Sequence[float]) -> list[tuple[int, float]]:
+        return [(channel, gain) for channel, gain in zip(self.channels, row, strict=True) if gain]
+
+    def to_axes(self, raw: Sequence[int]) -> list[float]:
+        """Values of three axes; zero for axes the device does not have."""
+        values = []
+        for value, terms in self._rows:
+            for channel, gain in terms:
+                value += gain * raw[channel]
+            values.append(value)
+        return values
+
+    def saturated(self, raw: Sequence[int]) -> bool:
+        """Whether an input is at the end of its range."""
+        limit = self.limit
+        return any(not -limit < raw[channel] < limit for channel in self.channels)
 
 
 def _require(key: str, channels: tuple[int, ...], available: int) -> None:
