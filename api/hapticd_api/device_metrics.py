@@ -13,7 +13,7 @@ from hapticd.realtime import Histogram, RealtimeReport
 from hapticd.snapshot import DeviceSnapshot, DeviceState
 from hapticd.station import Station
 
-NS = 1e-9
+NS_PER_S = 1e9
 
 _GAUGES: tuple[tuple[str, str, Callable[[DeviceSnapshot], float]], ...] = (
     ("hapticd_device_online", "Whether the servo answers", lambda device: device.health.online),
@@ -74,15 +74,17 @@ def _timing(reports: Iterable[RealtimeReport]) -> Iterator[Metric]:
         realtime.add_metric(device, float(report.scheduling.realtime_ok))
         for phase in ("lateness", "exchange", "compute"):
             histogram: Histogram = getattr(report, phase)
-            phases.add_metric((*device, phase), _buckets(histogram), histogram.sum_ns * NS)
+            phases.add_metric((*device, phase), _buckets(histogram), histogram.sum_ns / NS_PER_S)
     yield from (ticks, missed, realtime, phases)
 
 
 def _buckets(histogram: Histogram) -> list[tuple[str, float]]:
-    """Prometheus buckets, cumulative and named by their upper edge in seconds."""
-    total = 0
+    """Prometheus buckets: cumulative, named by their upper edge in seconds, each at least twice the last."""
+    total, last_ns = 0, 0.0
     buckets = []
     for upper_ns, count in zip(histogram.edges_ns[1:], histogram.counts, strict=False):
         total += count
-        buckets.append((repr(upper_ns * NS), float(total)))
+        if upper_ns >= 2 * last_ns:
+            buckets.append((repr(upper_ns / NS_PER_S), float(total)))
+            last_ns = upper_ns
     return [*buckets, ("+Inf", float(histogram.count))]
