@@ -9,7 +9,8 @@ Vector = NDArray[np.float64]
 def locked_joints(jacobian: Vector, k_q: Vector) -> Vector:
     """K_x = J⁻ᵀ K_q J⁻¹ (WN eq. 21), N/m."""
     inverse = np.linalg.inv(jacobian)
-    return np.asarray(inverse.T @ np.diag(k_q) @ inverse)
+    k_x: Vector = inverse.T @ np.diag(k_q) @ inverse
+    return k_x
 
 
 def isotropic_bound(jacobian: Vector, k_q: Vector) -> float:
