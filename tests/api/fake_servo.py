@@ -33,7 +33,18 @@ class FakeServo:
         self.mute = False
 
     def info(self) -> dict[str, Any]:
-        return {"device_id": self._device_id, "rate_hz": self._rate_hz, "pid": 4711, "is_twin": True}
+        return {
+            "device_id": self._device_id,
+            "rate_hz": self._rate_hz,
+            "pid": 4711,
+            "started_utc_ns": 0,
+            "started_mono_ns": 0,
+            "boot_id": "test",
+            "is_twin": True,
+            "layout_version": 1,
+            "schema_hash": 0,
+            "tick_capacity": 4096,
+        }
 
     def heartbeat(self) -> None:
         return None
