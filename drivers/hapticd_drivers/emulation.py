@@ -97,10 +97,12 @@ class Emulation:
 
     def _exchange(self, data: bytes, now_s: float) -> None:
         self._to_device.push(data, now_s)
-        sent = self._device.receive(self._to_device.pull(now_s), now_s) + self._device.advance(now_s)
-        if self._faults.mute.covers(now_s):
-            sent = b""
-        self._to_host.push(sent, now_s)
+        self._send(self._device.receive(self._to_device.pull(now_s), now_s), now_s)
+        self._send(self._device.advance(now_s), now_s)
+
+    def _send(self, data: bytes, now_s: float) -> None:
+        if not self._faults.mute.covers(now_s):
+            self._to_host.push(data, now_s)
         arrived = self._to_host.pull(now_s)
         if arrived and self._plugged:
             self._terminal.write(arrived)

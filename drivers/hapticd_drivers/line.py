@@ -102,13 +102,17 @@ class Line:
 
     def __init__(self, faults: LineFaults, seed: int) -> None:
         self._faults = faults
+        self._good = not any((faults.lose, faults.corrupt, faults.duplicate, faults.reorder, faults.delay_s))
         self._random = Random(seed)
         self._queue: deque[tuple[float, bytes]] = deque()
         self._swapped = b""
         self._partial = b""
 
     def push(self, data: bytes, now_s: float) -> None:
-        """Puts bytes in at one end; they travel frame by frame."""
+        """Puts bytes in at one end; on a bad cable they travel frame by frame."""
+        if self._good:
+            self._queue.append((now_s, data))
+            return
         *frames, self._partial = (self._partial + data).split(DELIMITER)
         for frame in frames:
             self._carry(frame + DELIMITER, now_s)

@@ -174,6 +174,20 @@ def test_enabling_in_the_tick_after_withdrawing_still_goes_live(live: Rig) -> No
     assert live.seen()["status"] & OUTPUTS_LIVE
 
 
+def test_a_fault_long_after_connecting_can_still_be_cleared() -> None:
+    """The frame counter has wrapped past the half of its range since the last withdrawal."""
+    rig = Rig("hhd", "host").connect()
+    for _ in range(3):
+        rig.tick(OFF, 5)
+        rig.driver._link._seq = rig.driver._link.seq + 20_000 & 0xFFFF
+    rig.press_estop()
+    rig.tick(OFF, 5)
+    rig.release_estop()
+    rig.tick(OFF, 5)
+    rig.tick(HHD, 10)
+    assert rig.seen()["status"] & OUTPUTS_LIVE
+
+
 def test_the_board_itself_bounds_a_host_gone_wrong(live: Rig) -> None:
     live.driver._wiring.outputs[:] = [o._replace(low=-32767, high=32767) for o in live.driver._wiring.outputs]
     live.tick((1.0, 0.0, 0.0, 0.0, 1e6, -1e6, 0.0, 1e6, -1e6, 0.0), 3)

@@ -21,7 +21,7 @@ from hapticd_drivers.hapticd_io.protocol import (
     Command,
     State,
 )
-from hapticd_drivers.hapticd_io.timeline import Timeline
+from hapticd_drivers.hapticd_io.timeline import SEQ_BITS, Timeline, wrapped_distance
 from hapticd_drivers.hapticd_io.wiring import Wiring
 from hapticd_drivers.transport import ByteTransport, SerialTransport
 
@@ -68,6 +68,7 @@ class HapticdIo:
         self._armed = False
         self._clearing = False
         self._blocked = True
+        self._withdrawn_seq: int | None = self._link.seq
         self._alive_at = self._clock()
 
     def connect(self) -> None:
@@ -104,13 +105,15 @@ class HapticdIo:
         """
         try:
             self._send(command)
-            state = self._newest()
+            frame = self._newest()
         except DeviceLost:
             return DOWN
-        if state is None:
+        if frame is None:
             self._missing += 1
             return MISSING if self._clock() - self._alive_at < SILENCE_S else DOWN
-        self._blocked = state.fault != 0 or state.status & STATUS_SAFE != 0
+        self._alive_at = self._clock()
+        state = State.unpack(frame.payload)
+        self._blocked = not self._is_clear(state, frame.ack)
         self._observer.write(state, self._timeline, self._armed, observation)
         return FRESH
 
@@ -133,7 +136,9 @@ class HapticdIo:
 
     def _send(self, command: memoryview) -> None:
         enable, raw = self._wiring.to_outputs(command)
-        self._armed = enable and (self._armed or not self._blocked)
+        was_armed, self._armed = self._armed, enable and (self._armed or not self._blocked)
+        if was_armed and not self._armed:
+            self._withdraw()
         if self._armed:
             payload = Command(self._watchdog, ENABLE_GLOBAL | self._wiring.enable_mask, tuple(raw)).pack()
         else:
@@ -145,7 +150,18 @@ class HapticdIo:
             wire = b"\0" + wire
         self._torn = self._transport.write(wire) < len(wire)
 
-    def _newest(self) -> State | None:
+    def _withdraw(self) -> None:
+        """From here on the board has to be cleared, whatever STATE is still under way."""
+        self._blocked = True
+        self._withdrawn_seq = self._link.seq + 1 & 0xFFFF
+
+    def _is_clear(self, state: State, ack: int) -> bool:
+        """Whether the board is free to go live, and says so with the last withdrawal behind it."""
+        if self._withdrawn_seq is not None and wrapped_distance(ack, self._withdrawn_seq, SEQ_BITS) > 0:
+            self._withdrawn_seq = None
+        return self._withdrawn_seq is None and state.fault == 0 and not state.status & STATUS_SAFE
+
+    def _newest(self) -> Frame | None:
         """The newest STATE; host-paced, the one that answers the command just sent if it comes in time."""
         newest: Frame | None = None
         wait_s = self._options.reply_timeout_s if self._answers_at_once else 0.0
@@ -159,10 +175,7 @@ class HapticdIo:
             if wait_s <= 0.0:
                 self._late += newest is not None
                 break
-        if newest is None:
-            return None
-        self._alive_at = self._clock()
-        return State.unpack(newest.payload)
+        return newest
 
     def _take(self, frame: Frame) -> Frame | None:
         if frame.flags & FLAG_RESYNC:

@@ -46,6 +46,7 @@ class Emulator:
         self._tick_s = 1.0 / board.description.tick_max_hz
         self._ticks = 0
         self._next_s = 0.0
+        self._host_ticks = 0
         self._estop = False
 
     def start(self, now_s: float) -> None:
@@ -58,19 +59,19 @@ class Emulator:
         return self._next_s
 
     def receive(self, data: bytes, now_s: float) -> bytes:
-        """See `EmulatedDevice.receive`."""
+        """See `EmulatedDevice.receive`. A host-paced STATE leaves before the physics of the next tick."""
         replies = []
         for frame in self.board.link.receive(data) if data else ():
-            paces = self.board.host_paced and frame.kind is Kind.COMMAND
-            if paces:
-                self._pass_host_tick(now_s)
-            replies.append(self.board.handle(frame))
-            if paces:
+            if self.board.host_paced and frame.kind is Kind.COMMAND:
                 replies.append(self.board.state())
+                self._host_ticks += 1
+            replies.append(self.board.handle(frame))
         return b"".join(replies)
 
     def advance(self, now_s: float) -> bytes:
         """See `EmulatedDevice.advance`."""
+        if self._host_ticks:
+            self._pass_host_ticks(now_s)
         if now_s - self._next_s > LATE_MAX_S:
             self._next_s = now_s
         sent = []
@@ -94,9 +95,10 @@ class Emulator:
     def _decimation(self) -> int:
         return self.board.description.tick_max_hz // self.board.tick_hz
 
-    def _pass_host_tick(self, now_s: float) -> None:
-        for _ in range(self._decimation()):
+    def _pass_host_ticks(self, now_s: float) -> None:
+        for _ in range(self._host_ticks * self._decimation()):
             self._step()
+        self._host_ticks = 0
         self._next_s = now_s + HOST_PATIENCE * self._decimation() * self._tick_s
 
     def _step(self) -> None:

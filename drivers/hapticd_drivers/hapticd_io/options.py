@@ -14,6 +14,9 @@ from hapticd_drivers.option_reader import OptionReader
 AI_CHANNELS: Final = 8
 AO_CHANNELS: Final = 8
 ENCODER_CHANNELS: Final = 4
+REPLY_SHARE: Final = 0.8
+"""Share of a tick that an exchange may wait, where nothing else is said; the rest is the core's."""
+
 PACINGS: Final = ("device", "host")
 
 _UNITS: Final = {"v": UNIT_VOLT, "a": UNIT_MILLIAMPERE}
@@ -73,7 +76,7 @@ class Options:
             rate_hz=rate_hz,
             pacing=take.choice("pacing", PACINGS),
             watchdog_s=take.number("watchdog_s", 0.001, 6.5, 0.05),
-            reply_timeout_s=take.number("reply_timeout_s", 0.0, 1.0 / rate_hz, 0.5 / rate_hz),
+            reply_timeout_s=take.number("reply_timeout_s", 0.0, 1.0 / rate_hz, REPLY_SHARE / rate_hz),
             uid=take.uid("uid"),
             encoders=take.channels("encoders", needs.axes, ENCODER_CHANNELS, range(needs.axes)),
             motors=_motors(take, needs),
