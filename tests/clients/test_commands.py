@@ -39,7 +39,7 @@ def test_status_shows_each_device(run: Run, double: DaemonDouble) -> None:
     assert "disabled" in phantom_line
     assert "0.50" in phantom_line
     assert "enabled" in hhd_line
-    assert "100.0   200.0" in hhd_line
+    assert "100.0  200.0" in hhd_line
 
 
 def test_status_says_what_is_wrong_and_what_cures_it(run: Run, double: DaemonDouble) -> None:
@@ -57,7 +57,7 @@ def test_status_as_json_is_what_the_daemon_said(run: Run, double: DaemonDouble) 
 
 
 def test_a_device_name_is_not_read_as_markup(run: Run, double: DaemonDouble) -> None:
-    double.answer("GET /api/v1/devices", {"devices": [device("phantom", model="[red]x[/red]")]})
+    double.answer("GET /api/v1/devices", {"devices": [device("phantom", driver="[red]x[/red]")]})
     assert "[red]x[/red]" in run("status").stdout
 
 
@@ -151,6 +151,11 @@ def test_a_refusal_shows_title_detail_interlocks_and_cure(run: Run, double: Daem
     assert "not-homed" not in result.stderr
     assert "Cure: This cures interlock-open." in result.stderr
     assert not result.stdout
+
+
+def test_a_cure_is_told_in_the_words_of_the_command_line(run: Run, double: DaemonDouble) -> None:
+    double.answer(f"PUT {FLOOR_PATH}", problem("wall-exists", 409), status=409)
+    assert "Cure: Replace the wall with --replace, or choose another id." in run(*ADD_FLOOR).stderr
 
 
 def test_a_refusal_as_json_is_the_problem_document(run: Run, double: DaemonDouble) -> None:

@@ -18,6 +18,7 @@ SIGNALS = ("tip_position_m", "tip_force_n", "contact_depth_m", "lateness_ns", "m
 """What the table shows; watched in batches, so that no peak between two frames is missed."""
 
 HEADINGS = ("device", "state", "tip / mm", "force / N", "peak", "depth / mm", "late / µs", "missed")
+WORDS = ("device", "state", "tip / mm")
 EVENTS_SHOWN = 6
 
 
@@ -60,8 +61,8 @@ class Board:
 
     def _table(self) -> Table:
         table = Table(box=None, header_style="bold", pad_edge=False, style="dim" if self.lost else "")
-        for index, heading in enumerate(HEADINGS):
-            table.add_column(heading, justify="left" if index < 2 else "right", no_wrap=True)
+        for heading in HEADINGS:
+            table.add_column(heading, justify="left" if heading in WORDS else "right", no_wrap=True)
         for device in self._devices.values():
             name = f"[bold]{escape(device['id'])}[/]"
             state = state_text(device["state"], estop=device["flags"]["estop"])
@@ -89,6 +90,4 @@ def _square(vector: list[float | None]) -> float:
 
 
 def _event_line(event: Event) -> str:
-    time = event["t_utc"][11:19]
-    subject = f"{event['device_id']}: " if event["device_id"] else ""
-    return f"{time}  {subject}{event['message']}"
+    return f"{event['t_utc'][11:19]}  {event['message']}"

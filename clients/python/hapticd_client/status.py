@@ -10,7 +10,7 @@ from rich.text import Text
 from hapticd_client.documents import Device
 from hapticd_client.terminal import millimetres, norm_text, state_text
 
-HEADINGS = ("device", "state", "by", "tip / mm", "force / N", "walls", "touches")
+HEADINGS = ("device", "state", "driver", "tip / mm", "force / N", "walls", "touches")
 
 
 def overview(devices: list[Device]) -> RenderableType:
@@ -27,7 +27,7 @@ def _cells(device: Device) -> tuple[str, ...]:
     return (
         f"[bold]{escape(device['id'])}[/]",
         state_text(device["state"], estop=device["flags"]["estop"]),
-        f"{escape(device['model'])} {'twin' if device['twin'] else escape(device['driver'])}",
+        escape(device["driver"]),
         millimetres(device["tip_position_m"]),
         norm_text(device["tip_force_n"]),
         str(device["walls"]),

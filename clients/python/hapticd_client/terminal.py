@@ -37,6 +37,15 @@ STATE_STYLES: dict[State, str] = {
     "fault": "bold red",
 }
 
+HINTS = {
+    "wall-exists": "Replace the wall with --replace, or choose another id.",
+    "device-not-found": "'hapticd status' lists the devices there are.",
+    "wall-not-found": "'hapticd walls list' lists the walls there are.",
+    "fault-not-found": "'hapticd status' lists the faults there are.",
+    "revision-stale": "Run the command again: somebody else has just edited the scene.",
+}
+"""Cures in the words of the command line, where the API's are about requests."""
+
 console = Console(highlight=False)
 error_console = Console(stderr=True, highlight=False)
 
@@ -73,8 +82,9 @@ def show_error(error: HapticdError) -> None:
     error_console.print(f"  {escape(str(error))}", soft_wrap=True)
     if isinstance(error, Refused):
         _show_interlocks([entry for entry in error.interlocks if not entry.get("ok", False)])
-    if error.hint:
-        error_console.print(f"  [bold]Cure:[/] {escape(error.hint)}", soft_wrap=True)
+    hint = HINTS.get(error.slug, error.hint) if isinstance(error, Refused) else error.hint
+    if hint:
+        error_console.print(f"  [bold]Cure:[/] {escape(hint)}", soft_wrap=True)
 
 
 def _show_interlocks(interlocks: list[Interlock]) -> None:
@@ -86,16 +96,15 @@ def _show_interlocks(interlocks: list[Interlock]) -> None:
 
 
 def state_text(state: State, *, estop: bool) -> str:
-    """The state in its colour, with the emergency stop beside it."""
-    text = f"[{STATE_STYLES.get(state, 'default')}]{state}[/]"
-    return f"{text} [bold white on red] E-STOP [/]" if estop else text
+    """The state in its colour; a latched emergency stop takes its place."""
+    return "[bold white on red] E-STOP [/]" if estop else f"[{STATE_STYLES.get(state, 'default')}]{state}[/]"
 
 
 def millimetres(vector_m: list[float] | None) -> str:
     """A position for people: millimetres, aligned."""
     if vector_m is None:
         return "–"
-    return " ".join(f"{1e3 * coordinate:7.1f}" for coordinate in vector_m)
+    return " ".join(f"{1e3 * coordinate:6.1f}" for coordinate in vector_m)
 
 
 def norm_text(vector: list[float] | None) -> str:
