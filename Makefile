@@ -77,6 +77,10 @@ format: $(VENV)/.installed ## put every file into its one format
 	$(BIN)/ruff check --fix-only --quiet
 	$(BIN)/ruff format
 
+.PHONY: bench
+bench: $(VENV)/.installed ## figures: tick, twins, both loops under load; ARGS="--seconds 10" for a short look
+	@$(BIN)/python -m tests.bench $(ARGS)
+
 .PHONY: mutants
 mutants: ## mutation tests of the bounding layer; takes long
 	$(need_cargo)
