@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -71,6 +72,8 @@ class Device:
         self._why_offline: str | None = NOT_STARTED
         self._attachments = 0
         self._misses = Misses()
+        self._told_until_ns = 0
+        self._estop_lost = False
 
     # State -------------------------------------------------------------------------------------
 
@@ -197,20 +200,29 @@ class Device:
         self._why_offline = None
         self._attachments += 1
         self._misses = Misses()
+        started = datetime.fromtimestamp(link.info()["started_utc_ns"] / 1e9, UTC)
+        self._told_until_ns = self._events.loop_told_until_ns(self.device_id, started)
 
     def detach(self, why: str) -> None:
         """Lets go of the link: the device is offline, and waiting requests end with a problem."""
         if self._channel is not None:
             self._channel.close(why)
+            reading = self._reading()
+            self._estop_lost = reading is not None and reading.flags.estop
         self._link, self._channel = None, None
         self._why_offline = why
 
-    def explain_offline(self, why: str) -> None:
-        """Says why the device stays offline."""
+    def explain_absence(self, why: str | None) -> None:
+        """Says why the device does not answer its servo; None when it does."""
         self._why_offline = why
 
     async def restore(self) -> None:
-        """Gives a servo that was just attached the hand and the scene it does not know."""
+        """Gives a servo that was just attached what it does not know: E-stop, hand and scene.
+
+        A latched E-stop does not end with the servo that latched it, only by its acknowledgement.
+        """
+        if self._estop_lost:
+            await self.engage_estop()
         if self.is_twin:
             await self.set_hand(self._hand)
         await self._editor.send_present()
@@ -223,7 +235,9 @@ class Device:
     def tell_servo_events(self) -> None:
         """Moves what the servo told into the event log."""
         for event in self._link.events() if self._link else ():
-            self._tell(event)
+            # A servo that outlived a front still keeps what that front has already told.
+            if event["t_mono_ns"] > self._told_until_ns:
+                self._tell(event)
         if summary := self._misses.summary(time.monotonic_ns()):
             self._events.append("servo.miss", f"{self.device_id} {summary}", device_id=self.device_id)
 

@@ -23,7 +23,7 @@ NO_WALL = 2**64 - 1
 
 @dataclass(frozen=True)
 class Attachment:
-    """How the device stands with its servo. ``why`` is None while it is attached."""
+    """How the device stands with its servo. ``why`` says what keeps it offline; None when nothing does."""
 
     why: str | None
     count: int
@@ -98,6 +98,7 @@ def _health(attachment: Attachment, status: ServoStatus | None) -> Health:
     scheduling = status["scheduling"]
     return Health(
         online=True,
+        why=attachment.why,
         restarts=restarts,
         pid=attachment.pid,
         identity=status["identity"] or None,

@@ -116,6 +116,15 @@ class EventLog:
         later = (event for event in self._recent if event.id > event_id)
         return list(itertools.islice(later, limit))
 
+    def loop_told_until_ns(self, device_id: str, since: datetime) -> int:
+        """Time of the last event of a device's loop noted since then, on the loop's clock; 0 for none."""
+        times_ns = (
+            event.t_mono_ns
+            for event in self._recent
+            if event.device_id == device_id and event.tick is not None and event.t_utc >= since
+        )
+        return max(times_ns, default=0)
+
     @property
     def oldest_id(self) -> int | None:
         """Id of the oldest event still kept."""

@@ -13,6 +13,9 @@ OFFLINE = 1 << 0
 a device without a servo has no other to show.
 """
 
+NOT_ENABLED = "not-enabled"
+"""The interlock against pausing; it says no more than that the state machine has no such step."""
+
 
 @cache
 def fault_bits() -> dict[str, int]:
@@ -30,13 +33,17 @@ def faults(bits: int) -> list[FaultReport]:
 
 
 def interlocks(bits: int) -> list[InterlockReport]:
-    """Every interlock, those in the set as open."""
+    """Every condition for enabling, those in the set as open."""
+    return [interlock for interlock in _table(bits) if interlock.id != NOT_ENABLED]
+
+
+def open_interlocks(bits: int) -> list[InterlockReport]:
+    """The interlocks in the set: what stands against a request, whichever it was."""
+    return [interlock for interlock in _table(bits) if not interlock.ok]
+
+
+def _table(bits: int) -> list[InterlockReport]:
     return [
         InterlockReport(id=entry["slug"], ok=not bits >> bit & 1, why=entry["why"], cure=entry["cure"])
         for bit, entry in enumerate(_core.interlock_table())
     ]
-
-
-def open_interlocks(bits: int) -> list[InterlockReport]:
-    """The interlocks in the set."""
-    return [interlock for interlock in interlocks(bits) if not interlock.ok]

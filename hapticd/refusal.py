@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from hapticd.problem import Problem
-from hapticd.reasons import open_interlocks
+from hapticd.reasons import NOT_ENABLED, open_interlocks
 
 if TYPE_CHECKING:
     from hapticd._core import Ack
@@ -19,9 +19,6 @@ REACHABLE: Mapping[str, tuple[str, ...]] = {
     "fault": (),
 }
 """States that can be asked for, by the present one. A fault is left by acknowledging it."""
-
-NOT_ENABLED = "not-enabled"
-"""The interlock that says no more than that the state machine has no such step."""
 
 
 def refusal(device_id: str, request_type: str, ack: Ack) -> Problem:

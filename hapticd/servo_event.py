@@ -41,6 +41,9 @@ _SENTENCES: Mapping[str, Callable[[str, Mapping[str, Any]], str]] = {
         if details["alive"]
         else f"{device_id} no longer heard the front."
     ),
-    "overflow": lambda device_id, _: f"Events of {device_id} were lost: more arose than its ring holds.",
+    "overflow": lambda device_id, details: (
+        f"{details['lost']} events of {device_id} were lost: too many at once."
+    ),
+    "garbled": lambda device_id, _: f"{device_id} found garbage in its request queue and dropped it.",
     "stopped": lambda device_id, details: f"The loop of {device_id} ended: {details['reason']}.",
 }

@@ -72,7 +72,7 @@ class ServoProcess:
         if code is None:
             return None
         how = f"was killed by signal {-code}" if code < 0 else f"exited with code {code}"
-        return f"Its servo {how}. {self._last_words()}".rstrip()
+        return f"Its servo {how}. {self.last_words()}".rstrip()
 
     async def terminate(self) -> bool:
         """Asks the process to fade out and exit, and kills it if it does not. Whether it went by itself."""
@@ -88,7 +88,8 @@ class ServoProcess:
             return False
         return True
 
-    def _last_words(self) -> str:
+    def last_words(self) -> str:
+        """The last line of its log, as a sentence; empty when there is none."""
         try:
             lines = self._log_file.read_text(encoding="utf-8", errors="replace").strip().splitlines()
         except OSError:

@@ -67,7 +67,11 @@ class Limits(Report):
 
 
 class Health(Report):
-    """Whether the servo lives, and why not; how well it keeps time. ``restarts`` counts its returns."""
+    """Whether the servo lives, and how well it keeps time.
+
+    ``why`` says what keeps the device offline: a dead servo, or hardware that does not answer a living one.
+    ``restarts`` counts the returns of the servo.
+    """
 
     online: bool
     why: str | None = None

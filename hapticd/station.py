@@ -45,7 +45,9 @@ class Station:
             device_id: Telemetry(device) for device_id, device in self.devices.items()
         }
         self._heartbeat = Heartbeat()
-        self._supervisors = [self._supervisor(device, models[device.id]) for device in config.devices]
+        self._supervisors = {
+            device.id: self._supervisor(device, models[device.id]) for device in config.devices
+        }
         self._tasks: list[asyncio.Task[None]] = []
         self._lock: IO[str] | None = None
         self._stopping = False
@@ -67,23 +69,20 @@ class Station:
         self._lock = _lock(self.config.paths.runtime_dir)
         self._heartbeat.start()
         self.events.append("daemon.started", "The daemon started.", details={"boot_id": self.boot_id})
-        work = [
-            self._heartbeat.watch_loop(),
-            *(telemetry.run() for telemetry in self.telemetry.values()),
-            *(supervisor.run() for supervisor in self._supervisors),
-        ]
-        self._tasks = [asyncio.create_task(coroutine) for coroutine in work]
+        self._tasks = [asyncio.create_task(self._heartbeat.watch_loop(), name="heartbeat")]
+        for device_id, telemetry in self.telemetry.items():
+            self._tasks.append(asyncio.create_task(telemetry.run(), name=f"telemetry of {device_id}"))
+        for device_id, supervisor in self._supervisors.items():
+            self._tasks.append(asyncio.create_task(supervisor.run(), name=f"supervisor of {device_id}"))
 
     async def stop(self) -> None:
         """Fades every force out, then ends servos and tasks; takes a few seconds at most."""
         self._stopping = True
         await asyncio.gather(*(self._disable(device) for device in self.devices.values()))
-        await asyncio.gather(*(supervisor.stop() for supervisor in self._supervisors))
+        await asyncio.gather(*(supervisor.stop() for supervisor in self._supervisors.values()))
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        for device in self.devices.values():
-            device.detach("The daemon is stopping.")
         self._heartbeat.stop()
         self.events.append("daemon.stopped", "The daemon stopped.", details={"boot_id": self.boot_id})
         if self._lock is not None:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol
+
+import structlog
 
 from hapticd import _core
 from hapticd.backoff import Backoff
@@ -20,9 +23,15 @@ from hapticd.problem import Problem
 WATCH_S = 0.05
 READY_TIMEOUT_S = 10.0
 RESTORE_AGAIN_S = 1.0
+EXPLAIN_S = 1.0
 
 STEADY_S = 30.0
 """A servo that ran this long was well: the next one is started without delay."""
+
+STOPPING = "The daemon is stopping."
+INTERRUPTED = "Its supervisor was interrupted."
+
+log = structlog.get_logger(__name__)
 
 OpenLink = Callable[[Path], Link]
 
@@ -37,6 +46,7 @@ class Servo(Protocol):
     def configured_alike(self) -> bool: ...
     async def launch(self) -> None: ...
     def ending(self) -> str | None: ...
+    def last_words(self) -> str: ...
     async def terminate(self) -> bool: ...
 
 
@@ -47,6 +57,17 @@ class ServoFailed(Exception):
 def open_front(region: Path) -> Link:
     """The shared memory of a servo. ``OSError`` or ``RegionError`` when there is none of use."""
     return _core.Front(str(region))
+
+
+def is_running(pid: int) -> bool:
+    """Whether there is a process of this number, also one of another user."""
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
 
 
 class Supervisor:
@@ -60,6 +81,7 @@ class Supervisor:
         events: EventLog,
         *,
         open_link: OpenLink = open_front,
+        is_running: Callable[[int], bool] = is_running,
         backoff: Backoff | None = None,
     ) -> None:
         self._device = device
@@ -67,6 +89,7 @@ class Supervisor:
         self._heartbeat = heartbeat
         self._events = events
         self._open_link = open_link
+        self._is_running = is_running
         self._backoff = backoff or Backoff()
         self._stopping = asyncio.Event()
 
@@ -74,10 +97,7 @@ class Supervisor:
         """Attaches to a living servo or starts one, again and again until ``stop``."""
         while not self._stopping.is_set():
             began_s = time.monotonic()
-            why = await self._once()
-            if self._stopping.is_set():
-                return
-            self._device.detach(why)
+            await self._once()
             if time.monotonic() - began_s > STEADY_S:
                 self._backoff.reset()
             await self._pause(self._backoff.pause_s())
@@ -88,17 +108,17 @@ class Supervisor:
         if not await self._servo.terminate():
             self._tell("servo.killed", "did not exit in time and was killed.")
 
-    async def _once(self) -> str:
+    async def _once(self) -> None:
         try:
             link = await self._attach_to_living() or await self._launch()
+            await self._serve(link)
         except (ServoFailed, OSError) as error:
             self._tell("servo.failed", f"has no servo. {error}")
-            return str(error)
-        try:
-            return await self._serve(link)
-        finally:
-            self._heartbeat.remove(link)
-            link.close()
+            self._device.detach(str(error))
+        except Exception:
+            # A fault in here must not leave the device without a supervisor: the next round starts afresh.
+            log.exception("supervisor", device_id=self._device.device_id)
+            self._tell("servo.failed", "lost its servo by a fault of the daemon; its log has the trace.")
 
     async def _attach_to_living(self) -> Link | None:
         link = self._open_living()
@@ -115,7 +135,10 @@ class Supervisor:
             link = self._open_link(self._servo.region)
         except (OSError, _core.RegionError):
             return None
-        if link.servo_alive() and link.info()["device_id"] == self._device.device_id:
+        info = link.info()
+        # A servo that was just killed left a heartbeat that is still young.
+        ticks = link.servo_alive() and self._is_running(info["pid"])
+        if ticks and info["device_id"] == self._device.device_id:
             return link
         link.close()
         return None
@@ -123,7 +146,7 @@ class Supervisor:
     async def _stop_other(self, link: Link) -> None:
         try:
             link.send('{"type": "stop"}')
-            await _until_gone(link)
+            await _silence(link)
         finally:
             link.close()
 
@@ -146,21 +169,31 @@ class Supervisor:
         await self._servo.terminate()
         raise ServoFailed(why)
 
-    async def _serve(self, link: Link) -> str:
-        """Stays attached until the servo goes; says why it went."""
+    async def _serve(self, link: Link) -> None:
+        """Stays attached until the servo goes."""
+        why = INTERRUPTED
         self._heartbeat.add(link)
         self._device.attach(link)
         self._tell("servo.attached", "is attached to its servo.", {"pid": link.info()["pid"]})
-        restoring = asyncio.create_task(self._restore(), name=f"restore-{self._device.device_id}")
+        beside = [asyncio.create_task(work) for work in (self._restore(), self._explain_absence())]
         try:
-            while (why := self._gone(link)) is None:
-                self._device.tell_servo_events()
-                await asyncio.sleep(WATCH_S)
+            why = await self._until_gone(link)
         finally:
-            restoring.cancel()
+            for task in beside:
+                task.cancel()
+            self._device.detach(why)
+            self._heartbeat.remove(link)
+            link.close()
+
+    async def _until_gone(self, link: Link) -> str:
+        """Passes on what the servo tells until it goes; says why it went."""
+        while (why := self._gone(link)) is None:
+            self._device.tell_servo_events()
+            await asyncio.sleep(WATCH_S)
         self._device.tell_servo_events()
-        if not self._stopping.is_set():
-            self._tell("servo.lost", f"lost its servo. {why}")
+        if self._stopping.is_set():
+            return STOPPING
+        self._tell("servo.lost", f"lost its servo. {why}")
         return why
 
     async def _restore(self) -> None:
@@ -173,6 +206,14 @@ class Supervisor:
                 await asyncio.sleep(RESTORE_AGAIN_S)
             else:
                 return
+
+    async def _explain_absence(self) -> None:
+        """Says why the device is not there while its servo is: the servo's log has what the driver met."""
+        while True:
+            absent = self._device.snapshot().state == "offline"
+            why = f"Its servo runs, but the device does not answer. {self._servo.last_words()}".rstrip()
+            self._device.explain_absence(why if absent else None)
+            await asyncio.sleep(EXPLAIN_S)
 
     def _gone(self, link: Link) -> str | None:
         if ending := self._servo.ending():
@@ -189,7 +230,7 @@ class Supervisor:
             await asyncio.wait_for(self._stopping.wait(), pause_s)
 
 
-async def _until_gone(link: Link) -> None:
+async def _silence(link: Link) -> None:
     with contextlib.suppress(TimeoutError):
         async with asyncio.timeout(READY_TIMEOUT_S):
             while link.servo_alive():  # noqa: ASYNC110 - another process sets it

@@ -196,6 +196,21 @@ async def test_servo_that_comes_back_gets_hand_and_scene_again(attached: Bench) 
     assert (snapshot.state, snapshot.scene_in_force, snapshot.health.restarts) == ("disabled", True, 1)
 
 
+async def test_estop_outlives_the_servo_that_latched_it(attached: Bench) -> None:
+    await attached.device.engage_estop()
+    attached.device.detach("Its servo was killed by signal 9.")
+    fresh = Bench(attached.state_dir).link
+    fresh.run()
+    attached.device.attach(fresh)
+    await attached.device.restore()
+    assert attached.device.snapshot().flags.estop
+    await attached.device.acknowledge_estop()
+    attached.device.detach("Its servo was killed by signal 9.")
+    attached.device.attach(Bench(attached.state_dir).link)
+    await attached.device.restore()
+    assert not attached.device.snapshot().flags.estop
+
+
 async def test_what_the_servo_tells_becomes_events_in_words(attached: Bench) -> None:
     attached.link.told = [
         {"seq": 0, "kind": "state", "tick": 5, "t_mono_ns": 5, "details": {"from": "enabled", "to": "fault"}},
@@ -204,6 +219,20 @@ async def test_what_the_servo_tells_becomes_events_in_words(attached: Bench) -> 
     event = attached.events.after()[-1]
     assert (event.kind, event.device_id, event.tick) == ("servo.state", "phantom", 5)
     assert event.message == "phantom went from enabled to fault."
+
+
+async def test_new_front_does_not_repeat_what_the_one_before_it_told(attached: Bench) -> None:
+    details = {"from": "enabled", "to": "fault"}
+    attached.link.told = [{"seq": 0, "kind": "state", "tick": 5, "t_mono_ns": 5, "details": details}]
+    attached.device.tell_servo_events()
+    again = Bench(attached.state_dir)
+    again.link.told = [
+        {"seq": 0, "kind": "state", "tick": 5, "t_mono_ns": 5, "details": details},
+        {"seq": 1, "kind": "front", "tick": 9, "t_mono_ns": 9, "details": {"alive": True}},
+    ]
+    again.device.attach(again.link)
+    again.device.tell_servo_events()
+    assert again.kinds() == ["servo.state", "servo.front"]
 
 
 async def test_misses_are_reported_with_their_context_but_do_not_fill_the_log(attached: Bench) -> None:

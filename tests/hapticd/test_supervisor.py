@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import subprocess
+import sys
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 
@@ -11,7 +14,7 @@ import pytest
 from hapticd import channel, supervisor
 from hapticd.backoff import Backoff
 from hapticd.heartbeat import Heartbeat
-from hapticd.supervisor import Supervisor
+from hapticd.supervisor import Supervisor, is_running
 from tests.hapticd.conftest import Bench, make_wall
 from tests.hapticd.fake_link import FakeLink
 
@@ -27,6 +30,7 @@ class FakeServo:
         self.stillborn: str | None = None
         self.alike = True
         self.terminated = False
+        self.dead: set[int] = set()
         self._ending: str | None = None
 
     @property
@@ -46,14 +50,17 @@ class FakeServo:
     def ending(self) -> str | None:
         return self._ending
 
+    def last_words(self) -> str:
+        return "Its log ends: no such port."
+
     async def terminate(self) -> bool:
         self.terminated = True
         self.die("Its servo exited with code 0.")
         return True
 
     def die(self, why: str) -> None:
-        if self.link is not None:
-            self.link.alive = False
+        # As after a kill: the heartbeat it left is still young.
+        self.dead.add(1000 + self.launches)
         self._ending = why
 
     def open(self, _: Path) -> FakeLink:
@@ -75,6 +82,7 @@ class Watch:
             self.heartbeat,
             bench.events,
             open_link=self.servo.open,
+            is_running=lambda pid: pid not in self.servo.dead,
             backoff=Backoff(first_s=0.01, longest_s=0.05),
         )
         self.task: asyncio.Task[None] | None = None
@@ -111,6 +119,7 @@ class Watch:
 async def watch(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[Watch]:
     monkeypatch.setattr(supervisor, "WATCH_S", 0.005)
     monkeypatch.setattr(supervisor, "RESTORE_AGAIN_S", 0.01)
+    monkeypatch.setattr(supervisor, "EXPLAIN_S", 0.005)
     made = Watch(bench)
     yield made
     await made.stop()
@@ -146,6 +155,14 @@ async def test_living_servo_of_another_configuration_is_replaced(watch: Watch) -
     assert (watch.servo.launches, outdated.closed) == (1, True)
 
 
+def test_process_is_known_to_run_or_not() -> None:
+    assert is_running(os.getpid())
+    assert is_running(1)
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    assert not is_running(gone.pid)
+
+
 async def test_servo_of_another_device_is_left_alone(watch: Watch) -> None:
     stranger = FakeLink("hhd", pid=77)
     watch.servo.link = stranger
@@ -164,7 +181,7 @@ async def test_dead_servo_takes_its_device_offline_and_comes_back_disabled(
     monkeypatch.setattr(watch.servo, "stillborn", "Its servo exited with code 1.")
     watch.servo.die("Its servo was killed by signal 9.")
     await watch.until(lambda: watch.state == "offline")
-    assert dead.closed
+    await watch.until(lambda: dead.closed)
     beats = dead.beats
     watch.heartbeat.beat()
     assert dead.beats == beats
@@ -175,6 +192,19 @@ async def test_dead_servo_takes_its_device_offline_and_comes_back_disabled(
     watch.servo.stillborn = None
     await watch.until(lambda: watch.state == "disabled")
     assert watch.bench.device.snapshot().health.restarts == 1
+
+
+async def test_device_that_does_not_answer_its_servo_says_what_the_driver_met(watch: Watch) -> None:
+    watch.start()
+    await watch.until(lambda: watch.state == "disabled")
+    watch.link.state = "offline"
+    watch.link.run()
+    await watch.until(lambda: watch.why is not None)
+    assert watch.why == "Its servo runs, but the device does not answer. Its log ends: no such port."
+    assert watch.bench.device.snapshot().health.online
+    watch.link.state = "disabled"
+    watch.link.run()
+    await watch.until(lambda: watch.why is None)
 
 
 async def test_servo_that_stops_beating_counts_as_gone(watch: Watch) -> None:
@@ -201,6 +231,31 @@ async def test_scene_is_offered_again_until_the_loop_takes_it(
     await watch.until(lambda: watch.bench.kinds().count("scene.not_restored") == 2)
     living.mute = False
     await watch.until(lambda: watch.bench.device.scene_in_force)
+
+
+async def test_fault_of_the_supervisor_does_not_leave_the_device_without_one(
+    watch: Watch, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    watch.start()
+    await watch.until(lambda: watch.state == "disabled")
+    first = watch.link
+    first.told = [{"seq": 0, "kind": "state", "tick": 1, "t_mono_ns": 1, "details": {}}]
+    await watch.until(lambda: first.closed)
+    await watch.until(lambda: watch.state == "disabled" and watch.bench.device.scene_in_force)
+    assert "servo.failed" in watch.bench.kinds()
+
+
+async def test_cancelled_supervisor_lets_go_of_a_servo_that_runs_on(watch: Watch) -> None:
+    watch.servo.link = FakeLink(pid=77)
+    watch.servo.link.run()
+    watch.start()
+    await watch.until(lambda: watch.state == "disabled")
+    assert watch.task is not None
+    watch.task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await watch.task
+    watch.task = None
+    assert (watch.state, watch.why, watch.link.closed) == ("offline", "Its supervisor was interrupted.", True)
 
 
 async def test_stopping_ends_the_servo_for_good(watch: Watch) -> None:
