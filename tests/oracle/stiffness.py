@@ -9,8 +9,7 @@ Vector = NDArray[np.float64]
 def locked_joints(jacobian: Vector, k_q: Vector) -> Vector:
     """K_x = J⁻ᵀ K_q J⁻¹ (WN eq. 21), N/m."""
     inverse = np.linalg.inv(jacobian)
-    k_x: Vector = inverse.T @ np.diag(k_q) @ inverse
-    return k_x
+    return inverse.T @ np.diag(k_q) @ inverse
 
 
 def isotropic_bound(jacobian: Vector, k_q: Vector) -> float:
@@ -23,4 +22,5 @@ def direction_error_rad(psi_rad: Vector, delta_rad: float) -> Vector:
     from the soft principal axis, δ = q3 − q2 (physics §3.2)."""
     kappa = (1 + abs(np.sin(delta_rad))) / (1 - abs(np.sin(delta_rad)))
     sin, cos = np.sin(psi_rad), np.cos(psi_rad)
-    return np.arctan2((kappa - 1) * sin * cos, cos**2 + kappa * sin**2)
+    error: Vector = np.arctan2((kappa - 1) * sin * cos, cos**2 + kappa * sin**2)
+    return error

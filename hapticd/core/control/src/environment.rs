@@ -16,8 +16,11 @@ const NEWTON_STEPS: usize = 40;
 /// rigid walls, and 20 µN at 20 N/mm.
 const STEP_MIN_M: f64 = 1e-9;
 
-/// Evaluations of the line search at most.
+/// Evaluations of the line search at most; two or three are usual.
 const SEARCH_STEPS: usize = 30;
+
+/// Share of a step to which the line search is carried.
+const SEARCH_ACCURACY: f64 = 1e-6;
 
 /// Where the environment wants the tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,6 +49,49 @@ pub fn set_point(walls: &[Wall], x: &V3, xd: &V3) -> SetPoint {
     }
 }
 
+/// Newton's method on the piecewise quadratic objective. Each step minimises over the walls
+/// active where it is; it ends when that minimum is where it already is.
+fn proximal(walls: &[Wall], x: &V3) -> Proximal {
+    let mut shift = V3::zeros();
+    let mut view = View::at(walls, x, &shift);
+    for _ in 0..NEWTON_STEPS {
+        let step = view.minimum.shift - shift;
+        if step.norm() <= STEP_MIN_M {
+            break;
+        }
+        let full = View::at(walls, x, &view.minimum.shift);
+        if full.objective < view.objective {
+            (shift, view) = (view.minimum.shift, full);
+        } else {
+            shift += step_length(walls, x, &shift, &step) * step;
+            view = View::at(walls, x, &shift);
+        }
+    }
+    view.minimum
+}
+
+/// The objective as one point sees it.
+struct View {
+    /// ½|z−x|² + Σ w/2 violation² at the point.
+    objective: f64,
+    /// Minimum over the walls active at the point, the others left out.
+    minimum: Proximal,
+}
+
+impl View {
+    fn at(walls: &[Wall], x: &V3, shift: &V3) -> Self {
+        let free = Self {
+            objective: 0.5 * shift.norm_squared(),
+            minimum: Proximal::FREE,
+        };
+        active(walls, x, shift).fold(free, |mut view, wall| {
+            view.objective += 0.5 * wall.violation.powi(2) / wall.variance;
+            view.minimum.add(&wall);
+            view
+        })
+    }
+}
+
 /// Minimum of the objective over one fixed set of active walls.
 #[derive(Clone, Copy)]
 struct Proximal {
@@ -63,36 +109,12 @@ impl Proximal {
 
     /// Adds one wall by a rank-one update: a measurement n·shift = depth of variance 1/w. Stays
     /// accurate where inverting I + Σ w n nᵀ would cancel.
-    fn add(&mut self, n: &V3, depth: f64, variance: f64) {
-        let dn = self.derivative * n;
-        let gain = dn / (variance + n.dot(&dn));
-        self.shift += gain * (depth - n.dot(&self.shift));
+    fn add(&mut self, wall: &Active) {
+        let dn = self.derivative * wall.n;
+        let gain = dn / (wall.variance + wall.n.dot(&dn));
+        self.shift += gain * (wall.depth - wall.n.dot(&self.shift));
         self.derivative -= gain * dn.transpose();
     }
-}
-
-/// Newton's method on the piecewise quadratic objective. Each step minimises over the walls
-/// active at `shift`; it ends when that minimum is where it already is.
-fn proximal(walls: &[Wall], x: &V3) -> Proximal {
-    let mut shift = V3::zeros();
-    let mut proximal = Proximal::FREE;
-    for _ in 0..NEWTON_STEPS {
-        proximal = minimum_over_active(walls, x, &shift);
-        let step = proximal.shift - shift;
-        if step.norm() <= STEP_MIN_M {
-            break;
-        }
-        shift += step_length(walls, x, &shift, &step) * step;
-    }
-    proximal
-}
-
-fn minimum_over_active(walls: &[Wall], x: &V3, shift: &V3) -> Proximal {
-    let mut proximal = Proximal::FREE;
-    for active in active(walls, x, shift) {
-        proximal.add(&active.n, active.depth, active.variance);
-    }
-    proximal
 }
 
 /// A wall that contains the point looked at.
@@ -122,12 +144,9 @@ fn active<'a>(walls: &'a [Wall], x: &'a V3, shift: &'a V3) -> impl Iterator<Item
     })
 }
 
-/// The full step where the objective falls by it, which is nearly always; otherwise the step
-/// to the minimum along the line, so that no cycle of active sets is possible.
+/// Share of a step that reaches the minimum along it, by Newton's method within a bracket. Only
+/// needed where the full step would not lower the objective; it rules out cycles of active sets.
 fn step_length(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> f64 {
-    if objective(walls, x, &(shift + step)) < objective(walls, x, shift) {
-        return 1.0;
-    }
     let (mut low, mut high) = (0.0, 1.0);
     let mut t = 1.0;
     for _ in 0..SEARCH_STEPS {
@@ -137,20 +156,18 @@ fn step_length(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> f64 {
         } else {
             low = t;
         }
-        t -= slope / curvature;
-        if !(low..=high).contains(&t) {
-            t = 0.5 * (low + high);
+        let newton = t - slope / curvature;
+        let next = if (low..=high).contains(&newton) {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        if (next - t).abs() <= SEARCH_ACCURACY {
+            return next;
         }
+        t = next;
     }
-    t
-}
-
-/// ½|z−x|² + Σ w/2 violation².
-fn objective(walls: &[Wall], x: &V3, shift: &V3) -> f64 {
-    let walls: f64 = active(walls, x, shift)
-        .map(|wall| wall.violation.powi(2) / wall.variance)
-        .sum();
-    0.5 * (shift.norm_squared() + walls)
+    low
 }
 
 /// First and second derivative of the objective along `step`.

@@ -27,14 +27,16 @@ impl JointState {
     #[must_use]
     pub fn at(kinematics: &KinematicsModel, q: V3, qd: V3) -> Self {
         let jacobian = kinematics.jacobian(&q);
+        let singularity_margin = kinematics.singularity_margin(&q);
+        let jacobian_inverse = kinematics.invert(jacobian, singularity_margin);
         Self {
             q,
             qd,
             x: kinematics.forward(&q),
             xd: jacobian * qd,
             jacobian,
-            jacobian_inverse: kinematics.jacobian_inverse(&q).unwrap_or_default(),
-            singularity_margin: kinematics.singularity_margin(&q),
+            jacobian_inverse: jacobian_inverse.unwrap_or_default(),
+            singularity_margin,
         }
     }
 }

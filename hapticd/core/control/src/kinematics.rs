@@ -57,10 +57,14 @@ impl KinematicsModel {
     /// ∂q/∂x, rad/m, zero in the unused row and column; `None` at a singularity.
     #[must_use]
     pub fn jacobian_inverse(&self, q: &V3) -> Option<M3> {
-        if self.singularity_margin(q) <= SINGULAR {
+        self.invert(self.jacobian(q), self.singularity_margin(q))
+    }
+
+    /// [`Self::jacobian_inverse`] from what is already known of a pose.
+    pub(crate) fn invert(&self, jacobian: M3, singularity_margin: f64) -> Option<M3> {
+        if singularity_margin <= SINGULAR {
             return None;
         }
-        let jacobian = self.jacobian(q);
         match self {
             Self::Phantom { .. } => jacobian.try_inverse(),
             Self::Rhombus { .. } => invert_planar(jacobian),
