@@ -13,7 +13,7 @@ __all__ = ["HapticdIo", "create", "emulate"]
 
 
 def emulate(**settings: Any) -> tuple[Emulation, dict[str, Any]]:
-    """See `emulate.emulate`. Imported late: the servo process needs none of it."""
-    from hapticd_drivers.hapticd_io.emulate import emulate as build
+    """See `emulated_port.emulate`. Imported late: the servo process needs none of it."""
+    from hapticd_drivers.hapticd_io.emulated_port import emulate as build
 
     return build(**settings)
