@@ -103,11 +103,7 @@ class Config(BaseSettings):
     """Everything the daemon is told. See :func:`load_config`."""
 
     model_config = SettingsConfigDict(
-        env_prefix=ENV_PREFIX,
-        env_nested_delimiter="__",
-        extra="forbid",
-        frozen=True,
-        nested_model_default_partial_update=True,
+        env_prefix=ENV_PREFIX, env_nested_delimiter="__", extra="forbid", frozen=True
     )
 
     api: ApiConfig = ApiConfig()

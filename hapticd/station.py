@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import fcntl
+import json
+import os
+import tempfile
 import uuid
 from collections.abc import Mapping
 from contextlib import suppress
@@ -122,19 +125,26 @@ def _check(device: Device) -> str | None:
 
 def _model(config: DeviceConfig) -> Model:
     try:
+        model = load_model(config.model, config.overrides)
+        if config.on_loss is None:
+            return model
+        if json.loads(model.device_json).get("brakes") is None:
+            raise ValueError(f"on_loss says what brakes do, and {model.name} has none")
         return load_model(config.model, config.model_overrides)
     except (OSError, ValueError) as error:
-        raise Problem("config-invalid", f"devices.{config.id}: {error}") from error
+        raise Problem("config-invalid", f"Device {config.id!r}: {error}") from error
 
 
 def _make_usable(directory: Path) -> None:
     try:
         directory.mkdir(mode=0o700, parents=True, exist_ok=True)
-        probe = directory / ".writable"
-        probe.touch()
-        probe.unlink()
+        with tempfile.TemporaryFile(dir=directory):
+            pass
     except OSError as error:
         raise Problem("directory-unusable", f"{directory} cannot be used: {error.strerror}.") from error
+    # In a directory that everybody may write to, somebody else may have made this one.
+    if os.getuid() not in (0, directory.stat().st_uid):
+        raise Problem("directory-unusable", f"{directory} belongs to another user.")
 
 
 def _lock(runtime_dir: Path) -> IO[str]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from hapticd.config import Config, load_config
+from hapticd.config import ApiConfig, Config, DeviceConfig, PathsConfig, load_config
 from hapticd.problem import Problem
 
 
@@ -161,3 +161,12 @@ def test_twins_take_the_place_of_hardware_and_its_options(tmp_path: Path) -> Non
     (device,) = load(tmp_path, text).on_twins().devices
     assert device.is_twin
     assert (device.options, device.seed, device.model) == ({}, 3, "hhd")
+
+
+def test_page_on_the_configuration_is_valid_and_names_every_key(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "configuration.md").read_text()
+    example = page.split("```toml\n")[1].split("```")[0]
+    config = load(tmp_path, example)
+    assert config.api.model_fields_set == set(ApiConfig.model_fields)
+    assert config.paths.model_fields_set == set(PathsConfig.model_fields)
+    assert config.devices[0].model_fields_set == set(DeviceConfig.model_fields)

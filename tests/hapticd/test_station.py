@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import signal
 import sys
@@ -218,6 +219,24 @@ def test_unknown_override_names_the_keys_there_are(tmp_path: Path) -> None:
     devices = (DeviceConfig(id="a", model="hhd", overrides={"limits.tip_force": 1.0}),)
     with pytest.raises(Problem, match=r"limits\.tip_force_n"):
         Station(configured(tmp_path).model_copy(update={"devices": devices}))
+
+
+def test_brake_policy_of_a_device_without_brakes_is_refused(tmp_path: Path) -> None:
+    devices = (DeviceConfig(id="a", model="phantom-1.0", on_loss="hold"),)
+    with pytest.raises(Problem, match=r"on_loss says what brakes do, and phantom-1\.0 has none"):
+        Station(configured(tmp_path).model_copy(update={"devices": devices}))
+
+
+def test_brake_policy_reaches_the_model(tmp_path: Path) -> None:
+    devices = (DeviceConfig(id="a", model="hhd", on_loss="hold"),)
+    station = Station(configured(tmp_path).model_copy(update={"devices": devices}))
+    assert json.loads(station.devices["a"].model.device_json)["brakes"]["release_on_stop"] is False
+
+
+def test_directory_of_somebody_else_is_not_trusted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hapticd.station.os.getuid", lambda: 54321)
+    with pytest.raises(Problem, match="belongs to another user"):
+        Station(configured(tmp_path))
 
 
 def test_directory_that_cannot_be_made_is_named(tmp_path: Path) -> None:
