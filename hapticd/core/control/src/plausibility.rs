@@ -207,24 +207,24 @@ impl Plausibility {
         let currents_finite = finite(&observation.motor_current_a);
         let bad_current = has(status::CURRENT_PRESENT) && !currents_finite;
         raise(&mut faults, Fault::ObservationNotFinite, bad_current);
-        if has(status::FORCE_PRESENT) {
-            self.judge_force(observation, &mut faults);
-        } else {
-            let expected = self.limits.sensor_force_n > 0.0;
-            raise(&mut faults, Fault::SensorStale, expected);
+        let present = has(status::FORCE_PRESENT);
+        let force_finite = finite(&observation.force_n) && observation.force_age_s.is_finite();
+        let bad_force = present && !force_finite;
+        raise(&mut faults, Fault::ObservationNotFinite, bad_force);
+        if self.limits.sensor_force_n > 0.0 {
+            self.judge_sensor(observation, present, &mut faults);
         }
         faults
     }
 
-    fn judge_force(&self, observation: &Observation, faults: &mut FaultSet) {
-        let finite = finite(&observation.force_n) && observation.force_age_s.is_finite();
-        raise(faults, Fault::ObservationNotFinite, !finite);
+    /// The force sensor of a device that has one: it speaks, lately, and within its range.
+    fn judge_sensor(&self, observation: &Observation, present: bool, faults: &mut FaultSet) {
         let force_n = V3::from(observation.force_n).norm();
         let saturated = force_n >= self.limits.sensor_force_n
             || observation.status & status::SENSOR_SATURATED != 0;
-        raise(faults, Fault::SensorSaturated, saturated);
+        raise(faults, Fault::SensorSaturated, present && saturated);
         let current = (0.0..=self.limits.sensor_age_s).contains(&observation.force_age_s);
-        raise(faults, Fault::SensorStale, !current);
+        raise(faults, Fault::SensorStale, !(present && current));
     }
 
     fn judge_step(

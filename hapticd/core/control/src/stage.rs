@@ -165,13 +165,8 @@ impl Stage {
     }
 
     fn bounded(&mut self, output: Output, wanted: &Wanted<'_>) -> Sent {
-        let (split, fade, singular) = if wanted.fresh {
-            let near = singularity_fade(
-                wanted.pose.singularity_margin,
-                self.limits.singularity_margin,
-            );
-            let singular = if near < 1.0 { limit::SINGULARITY } else { 0 };
-            (self.split(wanted), near * self.gain.value, singular)
+        let (split, fade, shaped) = if wanted.fresh {
+            self.shaped(wanted)
         } else {
             (self.last_split(), self.coast_fade(), 0)
         };
@@ -186,28 +181,38 @@ impl Stage {
             motor_nm: motor.torque_nm,
             usable: split.usable,
             gain: self.gain.value,
-            acted: motor.acted | braked | singular,
+            acted: motor.acted | braked | shaped,
         }
     }
 
-    /// Shares the demanded torque between motors and brakes.
-    fn split(&mut self, wanted: &Wanted<'_>) -> Split {
-        let demand = wanted.demand;
-        let Some(braking) = &mut self.braking else {
-            return Split {
-                motor_nm: demand.torque_nm,
-                ..Split::default()
-            };
-        };
+    /// The demand, shared between motors and brakes; its fade; and the limits that acted.
+    fn shaped(&mut self, wanted: &Wanted<'_>) -> (Split, f64, u64) {
+        let near = singularity_fade(
+            wanted.pose.singularity_margin,
+            self.limits.singularity_margin,
+        );
         // What brakes and motors share is within the tip's limit together (law 1).
         let share = tip_share(
-            &demand.torque_nm,
+            &wanted.demand.torque_nm,
             &wanted.pose.jacobian_inverse,
             self.limits.tip_force_n,
         );
+        let acted = |factor: f64, bit: u64| if factor < 1.0 { bit } else { 0 };
+        let limits = acted(near, limit::SINGULARITY) | acted(share, limit::TIP_FORCE);
+        (self.split(wanted, share), near * self.gain.value, limits)
+    }
+
+    fn split(&mut self, wanted: &Wanted<'_>, share: f64) -> Split {
+        let torque_nm = share * wanted.demand.torque_nm;
+        let Some(braking) = &mut self.braking else {
+            return Split {
+                motor_nm: torque_nm,
+                ..Split::default()
+            };
+        };
         let load = Load {
-            torque_nm: share * demand.torque_nm,
-            force_n: share * demand.force_n,
+            torque_nm,
+            force_n: share * wanted.demand.force_n,
             force_per_torque: wanted.pose.jacobian_inverse.transpose(),
             qd: wanted.pose.qd,
             hand_torque_nm: wanted.pose.jacobian.tr_mul(&wanted.hand_force_n),

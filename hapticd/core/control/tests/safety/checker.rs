@@ -132,7 +132,7 @@ impl<'a> Tick<'a> {
             command.brake_torque_nm,
         ];
         assert!(
-            outputs.as_flattened().iter().all(|value| value.is_finite()),
+            outputs.iter().flatten().all(|value| value.is_finite()),
             "law 1: finite"
         );
         if !command.enable {

@@ -18,7 +18,7 @@ enum Act {
     Push { force_n: V3 },
     Ask(Event),
     Recover,
-    Edit(Scene),
+    Edit(Box<Scene>),
     Silence { ticks: usize },
     Unplug { ticks: usize },
     Late { ticks: usize },
@@ -53,7 +53,7 @@ fn edit() -> impl Strategy<Value = Act> {
             Allocation::MotorAndBrake,
             Allocation::BrakeOnly,
         ];
-        Act::Edit(Scene {
+        Act::Edit(Box::new(Scene {
             allocation: allocations[choices.0],
             mapping: if choices.1 {
                 Mapping::Inverse
@@ -66,7 +66,7 @@ fn edit() -> impl Strategy<Value = Act> {
                 StiffnessScope::Pose
             },
             ..scene(&walls, fade_s)
-        })
+        }))
     })
 }
 

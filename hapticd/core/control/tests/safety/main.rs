@@ -1,8 +1,19 @@
 //! The safety layer, from single formulas to the eight laws over the whole tick.
 
+mod actuator;
+mod allocate;
+mod bound;
+mod brake;
+mod budget;
+mod check;
 mod checker;
+mod gain;
 mod laws;
 mod machine;
 mod models;
+mod outputs;
+mod plausibility;
 mod rendering;
 mod rig;
+mod thermal;
+mod ticks;

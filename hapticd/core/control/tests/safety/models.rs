@@ -1,6 +1,8 @@
 //! The shipped device models, and random variations of them.
 
-use hapticd_control::model::{BrakeModel, DeviceModel, DriveModel, LimitModel};
+use hapticd_control::model::{
+    BrakeModel, DeviceModel, DriveModel, LimitModel, SpringDriveModel, TorqueDriveModel,
+};
 use proptest::prelude::*;
 
 fn parse(text: &str) -> DeviceModel {
@@ -19,6 +21,20 @@ pub fn hhd() -> DeviceModel {
 
 pub fn brakes() -> BrakeModel {
     hhd().brakes.expect("the HHD has brakes")
+}
+
+pub fn spring_drive() -> SpringDriveModel {
+    match phantom().drive {
+        DriveModel::Spring(drive) => drive,
+        DriveModel::Torque(_) => unreachable!("the PHANTOM has spring drives"),
+    }
+}
+
+pub fn torque_drive() -> TorqueDriveModel {
+    match hhd().drive {
+        DriveModel::Torque(drive) => drive,
+        DriveModel::Spring(_) => unreachable!("the HHD has torque drives"),
+    }
 }
 
 /// Either device with its gains, limits and actuators scaled at random.

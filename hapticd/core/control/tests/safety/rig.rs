@@ -20,6 +20,8 @@ pub struct Rig {
     pub front_alive: bool,
     pub late: bool,
     pub realtime_ok: bool,
+    /// Whether the board drives what it is asked to.
+    pub obeys: bool,
     pub tick: u64,
 }
 
@@ -40,6 +42,7 @@ impl Rig {
             front_alive: true,
             late: false,
             realtime_ok: true,
+            obeys: true,
             tick: 0,
             model,
         };
@@ -64,11 +67,11 @@ impl Rig {
         self.observation.force_n = force_n.into();
     }
 
-    /// One tick with a new frame from a board that obeys the last command.
+    /// One tick with a new frame.
     pub fn step(&mut self) -> Command {
         self.observation.seq += 1;
         self.observation.t_device_ns += PERIOD_NS;
-        let live = if self.command.enable {
+        let live = if self.obeys && self.command.enable {
             status::OUTPUTS_LIVE
         } else {
             0

@@ -1,0 +1,627 @@
+//! The whole tick in the situations that the laws are about.
+
+use crate::models::{any_model, hhd, phantom};
+use crate::rig::{is_zero, scene, Rig, RATE_HZ};
+use hapticd_control::controller::{Event, State};
+use hapticd_control::fault::Fault;
+use hapticd_control::interlock;
+use hapticd_control::io::{status, Exchange};
+use hapticd_control::linear::V3;
+use hapticd_control::model::DeviceModel;
+use hapticd_control::record::{flag, limit, TickRecord, NO_WALL};
+use hapticd_control::scene::{Allocation, Scene, Wall};
+use proptest::prelude::*;
+
+fn tip_force_n(record: &TickRecord) -> V3 {
+    record.tip_force_command_n.into()
+}
+
+fn ask(rig: &mut Rig, event: Event) {
+    rig.controller.event(event).expect("event is carried out");
+}
+
+/// Runs to the end of a fade and gives the largest step of the commanded force on the way, N.
+fn fade_out(rig: &mut Rig) -> f64 {
+    let mut largest_n: f64 = 0.0;
+    let ticks = (2.0 * rig.model.limits.fade_s * RATE_HZ) as usize + 2;
+    for _ in 0..ticks {
+        let before = tip_force_n(&rig.record);
+        rig.step();
+        largest_n = largest_n.max((tip_force_n(&rig.record) - before).norm());
+    }
+    largest_n
+}
+
+#[test]
+fn device_is_offline_until_heard_and_then_disabled() {
+    let mut rig = Rig::new(phantom());
+    rig.exchange(Exchange::Missing);
+    assert_eq!(rig.state(), State::Offline);
+    assert_ne!(rig.controller.interlocks() & interlock::OFFLINE, 0);
+    rig.exchange(Exchange::Down);
+    assert_eq!(rig.record.faults, 0, "never connected is no loss");
+    rig.step();
+    assert_eq!(rig.state(), State::Disabled);
+    assert_eq!(rig.controller.interlocks(), 0);
+    assert!(is_zero(&rig.command));
+}
+
+#[test]
+fn enabling_ramps_up_in_contact_without_a_step() {
+    for model in [phantom(), hhd()] {
+        let mut rig = Rig::new(model);
+        rig.enable();
+        rig.wall_at(0.002, 0.0);
+        let mut gains = vec![];
+        for _ in 0..(rig.model.limits.ramp_s * RATE_HZ) as usize + 10 {
+            let before = tip_force_n(&rig.record);
+            rig.step();
+            gains.push(rig.record.gain);
+            let step_n = (tip_force_n(&rig.record) - before).norm();
+            assert!(step_n < 0.01 * rig.model.limits.tip_force_n, "{step_n}");
+        }
+        assert!(gains.windows(2).all(|pair| pair[1] >= pair[0]));
+        assert_eq!(gains.last(), Some(&1.0));
+        assert!(tip_force_n(&rig.record).norm() > 1.0);
+    }
+}
+
+#[test]
+fn ramp_waits_for_a_board_that_takes_its_time() {
+    let mut rig = Rig::new(phantom());
+    rig.enable();
+    rig.wall_at(0.002, 0.0);
+    rig.obeys = false;
+    rig.steps(200);
+    assert!(rig.command.enable);
+    assert_eq!(rig.record.gain, 0.0);
+    rig.obeys = true;
+    rig.steps(3);
+    assert!(rig.record.gain > 0.0 && rig.record.gain < 0.02);
+    assert!(tip_force_n(&rig.record).norm() < 0.1);
+}
+
+#[test]
+fn board_that_never_goes_live_is_a_fault() {
+    let mut rig = Rig::new(phantom());
+    rig.obeys = false;
+    rig.enable();
+    rig.steps(300);
+    assert!(rig.has(Fault::OutputsNotLive));
+    assert_eq!(rig.state(), State::Fault);
+}
+
+#[test]
+fn disabling_and_pausing_fade_within_bounded_time_and_without_a_step() {
+    for event in [Event::Disable, Event::Pause] {
+        for model in [phantom(), hhd()] {
+            let mut rig = Rig::pressing(model, 0.002);
+            let start_n = tip_force_n(&rig.record).norm();
+            ask(&mut rig, event);
+            rig.step();
+            assert!(rig.command.enable, "cut instead of faded");
+            assert!(rig.record.flags & flag::FADING != 0);
+            let largest_n = fade_out(&mut rig);
+            assert!(largest_n < 0.05 * start_n, "{largest_n} of {start_n}");
+            assert!(is_zero(&rig.command));
+            assert_eq!(rig.record.flags & flag::FADING, 0);
+        }
+    }
+}
+
+#[test]
+fn resuming_from_pause_ramps_again() {
+    let mut rig = Rig::pressing(phantom(), 0.002);
+    let full_n = tip_force_n(&rig.record).norm();
+    ask(&mut rig, Event::Pause);
+    let _ = fade_out(&mut rig);
+    assert_eq!(rig.state(), State::Paused);
+    ask(&mut rig, Event::Enable);
+    rig.steps(3);
+    assert!(tip_force_n(&rig.record).norm() < 0.02 * full_n);
+    rig.steps(400);
+    assert!((tip_force_n(&rig.record).norm() - full_n).abs() < 1e-3 * full_n);
+}
+
+#[test]
+fn estop_is_zero_in_the_next_tick_and_latches() {
+    let mut rig = Rig::pressing(hhd(), 0.002);
+    ask(&mut rig, Event::EstopEngage);
+    assert!(is_zero(&rig.step()));
+    assert_ne!(rig.record.flags & flag::ESTOP, 0);
+    assert_eq!(rig.state(), State::Disabled);
+    let refusal = rig.controller.event(Event::Enable).expect_err("latched");
+    assert_eq!(refusal.interlocks, interlock::ESTOP_LATCHED);
+    ask(&mut rig, Event::EstopAcknowledge);
+    ask(&mut rig, Event::Enable);
+}
+
+#[test]
+fn estop_input_acts_in_its_own_tick_and_is_not_acknowledged_while_open() {
+    let mut rig = Rig::pressing(hhd(), 0.002);
+    rig.observation.status |= status::ESTOP_INPUT;
+    assert!(is_zero(&rig.step()));
+    assert!(rig.controller.event(Event::EstopAcknowledge).is_err());
+    rig.observation.status &= !status::ESTOP_INPUT;
+    rig.step();
+    assert_ne!(
+        rig.record.flags & flag::ESTOP,
+        0,
+        "the latch fell with its input"
+    );
+    ask(&mut rig, Event::EstopAcknowledge);
+}
+
+#[test]
+fn estop_input_is_forgotten_with_the_device() {
+    let mut rig = Rig::running(hhd());
+    rig.observation.status |= status::ESTOP_INPUT;
+    rig.step();
+    rig.exchange(Exchange::Down);
+    assert_eq!(rig.controller.interlocks() & interlock::ESTOP_INPUT, 0);
+    assert_ne!(rig.controller.interlocks() & interlock::ESTOP_LATCHED, 0);
+}
+
+#[test]
+fn missing_frame_repeats_the_last_command() {
+    for model in [phantom(), hhd()] {
+        let mut rig = Rig::pressing(model, 0.002);
+        let before = rig.command;
+        for missing in 1..=5 {
+            let command = rig.exchange(Exchange::Missing);
+            for i in 0..3 {
+                // The torque stays; the volts follow the winding as it warms.
+                let drift_v = command.motor_v[i] - before.motor_v[i];
+                assert!(drift_v.abs() <= 0.01 * before.motor_v[i].abs());
+                assert!((command.motor_torque_nm[i] - before.motor_torque_nm[i]).abs() < 1e-9);
+            }
+            assert_eq!(rig.record.observation_missing, missing);
+            assert_eq!(rig.record.flags & flag::FRESH, 0);
+        }
+        assert!(is_zero(&rig.exchange(Exchange::Missing)));
+        assert!(rig.has(Fault::ObservationMissing));
+    }
+}
+
+#[test]
+fn coasting_does_not_follow_a_new_scene() {
+    let mut rig = Rig::running(hhd());
+    rig.wall_at(0.002, 0.0);
+    rig.exchange(Exchange::Missing);
+    assert!(tip_force_n(&rig.record).norm() < 1e-9);
+    rig.steps(3);
+    assert!(tip_force_n(&rig.record).norm() > 1.0);
+}
+
+#[test]
+fn fade_goes_on_while_frames_are_missing() {
+    let mut rig = Rig::pressing(hhd(), 0.002);
+    let start_n = tip_force_n(&rig.record).norm();
+    ask(&mut rig, Event::Disable);
+    for _ in 0..12 {
+        for _ in 0..4 {
+            rig.exchange(Exchange::Missing);
+        }
+        rig.step();
+    }
+    let left = tip_force_n(&rig.record).norm() / start_n;
+    assert!((left - 0.4).abs() < 0.03, "{left}");
+}
+
+#[test]
+fn coasting_does_not_rise_with_the_ramp() {
+    let mut rig = Rig::new(hhd());
+    rig.enable();
+    rig.wall_at(0.002, 0.0);
+    rig.steps(100);
+    let before_n = tip_force_n(&rig.record).norm();
+    rig.exchange(Exchange::Missing);
+    assert!((tip_force_n(&rig.record).norm() - before_n).abs() < 1e-9);
+}
+
+#[test]
+fn impossible_observation_is_zero_in_its_own_tick() {
+    let mut rig = Rig::pressing(hhd(), 0.002);
+    let pose = rig.record.joint_position_rad;
+    rig.observation.counts[0] += 5000;
+    assert!(is_zero(&rig.step()));
+    assert!(rig.has(Fault::EncoderJump));
+    assert_eq!(rig.record.joint_position_rad, pose, "it became a value");
+}
+
+#[test]
+fn motion_faster_than_the_device_can_be_is_zero_in_its_own_tick() {
+    let mut rig = Rig::pressing(hhd(), 0.002);
+    let mut q = V3::from(rig.record.joint_position_rad);
+    for _ in 0..4 {
+        q[0] += 0.055;
+        rig.place(&q);
+        rig.step();
+    }
+    assert!(rig.has(Fault::SpeedImplausible));
+    assert!(is_zero(&rig.command));
+}
+
+#[test]
+fn lost_device_is_offline_and_comes_back_disabled_with_its_fault() {
+    let mut rig = Rig::pressing(phantom(), 0.002);
+    assert!(is_zero(&rig.exchange(Exchange::Down)));
+    assert_eq!(rig.state(), State::Offline);
+    assert!(rig.has(Fault::DeviceLost));
+    rig.observation.seq = 0;
+    rig.observation.t_device_ns = 0;
+    assert!(is_zero(&rig.step()));
+    assert_eq!(rig.state(), State::Disabled);
+    assert!(rig.has(Fault::DeviceLost));
+    rig.acknowledge_all();
+    ask(&mut rig, Event::Enable);
+    rig.steps(2);
+    assert!(
+        tip_force_n(&rig.record).norm() < 0.1,
+        "reconnecting stepped the force"
+    );
+}
+
+#[test]
+fn dead_front_fades_and_stays_off() {
+    let mut rig = Rig::pressing(phantom(), 0.002);
+    rig.front_alive = false;
+    rig.step();
+    assert!(rig.has(Fault::FrontLost));
+    assert!(rig.command.enable, "cut instead of faded");
+    let _ = fade_out(&mut rig);
+    rig.front_alive = true;
+    rig.steps(10);
+    assert!(is_zero(&rig.command));
+    assert_eq!(rig.state(), State::Fault);
+}
+
+#[test]
+fn dead_front_of_an_idle_device_is_an_interlock_and_no_fault() {
+    let mut rig = Rig::new(phantom());
+    rig.front_alive = false;
+    rig.steps(5);
+    assert_eq!(rig.record.faults, 0);
+    assert_eq!(rig.controller.interlocks(), interlock::FRONT_MISSING);
+}
+
+#[test]
+fn realtime_that_was_not_obtained_is_an_interlock() {
+    let mut rig = Rig::new(phantom());
+    rig.realtime_ok = false;
+    rig.step();
+    assert_eq!(rig.controller.interlocks(), interlock::REALTIME_MISSING);
+}
+
+#[test]
+fn busy_device_cannot_be_enabled() {
+    let mut rig = Rig::new(phantom());
+    rig.controller.set_busy(true);
+    rig.step();
+    assert_eq!(rig.controller.interlocks(), interlock::BUSY);
+    assert_ne!(rig.record.flags & flag::BUSY, 0);
+    rig.controller.set_busy(false);
+    assert_eq!(rig.controller.interlocks(), 0);
+}
+
+#[test]
+fn late_ticks_in_a_row_are_a_fault_and_single_ones_are_not() {
+    let mut rig = Rig::pressing(phantom(), 0.002);
+    for _ in 0..3 {
+        rig.late = true;
+        rig.steps(19);
+        assert_eq!(rig.record.faults, 0);
+        rig.late = false;
+        rig.step();
+    }
+    rig.late = true;
+    rig.steps(20);
+    assert!(rig.has(Fault::DeadlineMissed));
+}
+
+#[test]
+fn late_ticks_of_an_idle_device_are_no_fault() {
+    let mut rig = Rig::new(phantom());
+    rig.late = true;
+    rig.steps(50);
+    assert_eq!(rig.record.faults, 0);
+}
+
+#[test]
+fn joint_zero_lost_in_use_is_zero_in_its_own_tick() {
+    let mut rig = Rig::pressing(phantom(), 0.002);
+    rig.observation.status &= !status::HOMED;
+    assert!(is_zero(&rig.step()));
+    assert!(rig.has(Fault::Encoder));
+    assert_eq!(rig.record.flags & flag::HOMED, 0);
+}
+
+#[test]
+fn wall_put_around_the_tool_without_a_fade_is_slewed_in() {
+    for mut model in [phantom(), hhd()] {
+        model.limits.tip_slew_n_per_s *= 0.2;
+        let mut rig = Rig::running(model);
+        rig.wall_at(0.02, 0.0);
+        let slew_n = rig.model.limits.tip_slew_n_per_s / RATE_HZ;
+        let mut slewed = false;
+        for _ in 0..60 {
+            let before = rig.record.motor_torque_estimate_nm;
+            rig.step();
+            slewed |= rig.record.limits & limit::SLEW != 0;
+            let change_nm = V3::from(rig.record.motor_torque_estimate_nm) - V3::from(before);
+            let inverse = rig
+                .model
+                .kinematics
+                .jacobian_inverse(&V3::from(rig.record.joint_position_rad));
+            let change_n = inverse.unwrap_or_default().tr_mul(&change_nm).norm();
+            assert!(change_n <= slew_n * 1.001, "{change_n}");
+        }
+        assert!(slewed);
+        let settled_n = tip_force_n(&rig.record).norm();
+        assert!(
+            (settled_n - rig.model.limits.tip_force_n).abs() < 1e-6,
+            "{settled_n}"
+        );
+        assert_ne!(rig.record.limits & limit::TIP_FORCE, 0);
+    }
+}
+
+#[test]
+fn value_that_is_not_finite_stops_in_its_own_tick() {
+    let mut rig = Rig::pressing(hhd(), 0.001);
+    let absurd = Wall {
+        normal: [0.0, -1.0, 0.0],
+        offset_m: 1e308,
+        eta: 0.0,
+    };
+    rig.controller.adopt(&scene(&[absurd], 0.0));
+    assert!(is_zero(&rig.step()));
+    assert!(rig.has(Fault::OutputNotFinite));
+    assert_ne!(rig.record.limits & limit::NON_FINITE, 0);
+    assert_eq!(rig.record.gain, 0.0);
+}
+
+#[test]
+fn outputs_fade_towards_a_singularity() {
+    let mut model = phantom();
+    model.limits.singularity_margin = 0.9;
+    let mut rig = Rig::pressing(model, 0.002);
+    let away_n = tip_force_n(&rig.record).norm();
+    let mut q = rig.home();
+    while rig.record.singularity_margin > 0.65 {
+        q[2] += 0.003;
+        rig.place(&q);
+        rig.step();
+    }
+    rig.wall_at(0.002, 0.0);
+    rig.steps(20);
+    assert_ne!(rig.record.limits & limit::SINGULARITY, 0);
+    let near_n = tip_force_n(&rig.record).norm();
+    assert!(near_n > 0.0 && near_n < 0.6 * away_n, "{near_n} {away_n}");
+    assert_eq!(rig.record.faults, 0);
+}
+
+fn with_mode(rig: &mut Rig, allocation: Allocation) {
+    let tip = V3::from(rig.record.tip_position_m);
+    let normal = -tip.normalize();
+    let wall = Wall {
+        normal: normal.into(),
+        offset_m: normal.dot(&tip) + 0.001,
+        eta: 0.0,
+    };
+    let scene = Scene {
+        allocation,
+        ..scene(&[wall], 0.0)
+    };
+    rig.hand(-20.0 * normal);
+    rig.controller.adopt(&scene);
+}
+
+#[test]
+fn brakes_take_over_at_rest_and_the_motors_let_go() {
+    let mut rig = Rig::running(hhd());
+    with_mode(&mut rig, Allocation::MotorAndBrake);
+    rig.steps(400);
+    assert_eq!(rig.record.brake_usable, 0b11);
+    assert!(rig.record.brake_torque_nm[..2].iter().all(|nm| *nm > 0.5));
+    assert!(V3::from(rig.record.motor_torque_nm).amax() < 0.6);
+    let pushed_n = V3::from(rig.record.sensor_force_n);
+    let given_n = V3::from(rig.record.tip_force_n);
+    assert!((given_n + pushed_n).norm() < 0.5, "{given_n}");
+}
+
+#[test]
+fn motor_only_mode_leaves_the_brakes_off_and_brake_only_the_motors() {
+    let mut rig = Rig::running(hhd());
+    with_mode(&mut rig, Allocation::MotorOnly);
+    rig.steps(100);
+    assert_eq!(rig.command.brake_torque_nm, [0.0; 3]);
+    assert!(V3::from(rig.record.motor_torque_nm).amax() > 1.0);
+    with_mode(&mut rig, Allocation::BrakeOnly);
+    rig.steps(100);
+    assert!(V3::from(rig.record.motor_torque_nm).amax() < 1e-9);
+    assert!(rig.command.brake_torque_nm[0] > 0.5);
+}
+
+#[test]
+fn brakes_let_go_as_soon_as_the_hand_unloads() {
+    let mut rig = Rig::running(hhd());
+    with_mode(&mut rig, Allocation::MotorAndBrake);
+    rig.steps(200);
+    rig.hand(V3::zeros());
+    rig.step();
+    assert_eq!(rig.command.brake_torque_nm, [0.0; 3]);
+    assert_eq!(rig.record.brake_usable, 0);
+}
+
+#[test]
+fn brake_that_rises_too_fast_says_so() {
+    let mut model = hhd();
+    model.limits.brake_slew_nm_per_s = 100.0;
+    let mut rig = Rig::running(model);
+    with_mode(&mut rig, Allocation::MotorAndBrake);
+    rig.steps(3);
+    assert_ne!(rig.record.limits & limit::BRAKE, 0);
+    assert!((rig.command.brake_torque_nm[0] - 0.3).abs() < 1e-9);
+    rig.steps(100);
+    assert_eq!(rig.record.limits & limit::BRAKE, 0);
+}
+
+fn holding() -> DeviceModel {
+    let mut model = hhd();
+    if let Some(brakes) = &mut model.brakes {
+        brakes.release_on_stop = false;
+    }
+    model
+}
+
+#[test]
+fn brakes_fade_when_outputs_are_withdrawn_if_they_are_to_release() {
+    let mut rig = Rig::running(hhd());
+    with_mode(&mut rig, Allocation::MotorAndBrake);
+    rig.steps(200);
+    let held_nm = rig.command.brake_torque_nm[0];
+    ask(&mut rig, Event::Disable);
+    rig.steps(50);
+    let left = rig.command.brake_torque_nm[0] / held_nm;
+    assert!((left - 0.5).abs() < 0.03, "{left}");
+    let _ = fade_out(&mut rig);
+    assert!(is_zero(&rig.command));
+}
+
+#[test]
+fn brakes_hold_when_outputs_are_withdrawn_if_they_are_to_hold_but_not_in_a_stop() {
+    let mut rig = Rig::running(holding());
+    with_mode(&mut rig, Allocation::MotorAndBrake);
+    rig.steps(200);
+    let held_nm = rig.command.brake_torque_nm;
+    assert!(held_nm[0] > 0.5);
+    ask(&mut rig, Event::Disable);
+    rig.steps(500);
+    assert_eq!(rig.command.brake_torque_nm, held_nm);
+    assert_eq!(rig.command.motor_torque_nm, [0.0; 3]);
+    assert!(rig.command.enable);
+    ask(&mut rig, Event::EstopEngage);
+    assert!(is_zero(&rig.step()));
+}
+
+#[test]
+fn device_that_holds_nothing_switches_off() {
+    let mut rig = Rig::pressing(holding(), 0.001);
+    rig.hand(V3::zeros());
+    rig.steps(5);
+    assert_eq!(rig.command.brake_torque_nm, [0.0; 3]);
+    ask(&mut rig, Event::Disable);
+    let _ = fade_out(&mut rig);
+    assert!(is_zero(&rig.command));
+}
+
+#[test]
+fn withdrawal_ends_also_where_the_force_does_not_fall() {
+    let mut model = hhd();
+    model.limits.tip_slew_n_per_s = 1.0;
+    let mut rig = Rig::running(model);
+    rig.wall_at(0.002, 0.0);
+    rig.steps(5000);
+    assert!(tip_force_n(&rig.record).norm() > 2.0);
+    ask(&mut rig, Event::Disable);
+    rig.steps(150);
+    assert!(rig.command.enable);
+    rig.steps(60);
+    assert!(is_zero(&rig.command));
+}
+
+#[test]
+fn record_says_what_happened() {
+    let mut rig = Rig::pressing(phantom(), 0.001);
+    let quiet = flag::HOMED | flag::FRESH | flag::CONTACT;
+    let record = rig.record;
+    assert_eq!(record.flags, quiet);
+    assert_eq!(
+        (record.tick, record.t_mono_ns),
+        (rig.tick, rig.tick * 1_000_000)
+    );
+    assert_eq!(record.observation_seq, rig.observation.seq);
+    assert_eq!(record.t_device_ns, rig.observation.t_device_ns);
+    assert_eq!(record.observation_status, rig.observation.status);
+    assert_eq!(
+        (record.scene_revision, record.state),
+        (1, State::Enabled as u64)
+    );
+    assert_eq!((record.contact_count, record.contact_wall), (1, 0));
+    assert!((record.contact_depth_m - 0.001).abs() < 1e-9);
+    assert_eq!(record.motor_v, rig.command.motor_v);
+    let depth = V3::from(record.setpoint_position_m) - V3::from(record.tip_position_m);
+    assert!((depth.norm() - 0.001).abs() < 1e-8);
+    let model_n = V3::from(record.tip_force_n) - tip_force_n(&record);
+    assert!(model_n.norm() < 1e-2);
+    rig.observation.seq += 4;
+    rig.step();
+    assert_eq!(rig.record.observation_lost, 4);
+    rig.controller.adopt(&Scene {
+        revision: 9,
+        ..scene(&[], 0.05)
+    });
+    rig.step();
+    assert_eq!(rig.record.scene_revision, 9);
+    assert_eq!(rig.record.contact_wall, NO_WALL);
+    assert_eq!(rig.record.flags, flag::HOMED | flag::FRESH | flag::FADING);
+    rig.steps(60);
+    assert_eq!(rig.record.flags, flag::HOMED | flag::FRESH);
+}
+
+#[test]
+fn measured_force_and_current_are_recorded_only_where_they_are_measured() {
+    let mut rig = Rig::running(hhd());
+    rig.hand(V3::new(1.0, -2.0, 0.0));
+    rig.step();
+    assert_eq!(rig.record.sensor_force_n, [1.0, -2.0, 0.0]);
+    let mut rig = Rig::running(phantom());
+    rig.hand(V3::new(1.0, -2.0, 3.0));
+    rig.observation.motor_current_a = [0.5, 0.0, 0.0];
+    rig.step();
+    assert_eq!(rig.record.sensor_force_n, [0.0; 3]);
+    assert!(rig.record.motor_current_a[0].abs() < 0.1);
+    rig.observation.status |= status::CURRENT_PRESENT;
+    rig.step();
+    assert_eq!(rig.record.motor_current_a, [0.5, 0.0, 0.0]);
+}
+
+#[test]
+fn workspace_stiffness_is_the_same_everywhere_and_never_above_the_pose() {
+    let mut seen = vec![];
+    for q2 in [0.5, 0.9, 1.2] {
+        let mut rig = Rig::running(phantom());
+        let pose_n_per_m = {
+            rig.place(&V3::new(0.0, q2, q2 + 0.2));
+            rig.acknowledge_all();
+            rig.exchange(Exchange::Down);
+            rig.step();
+            rig.record.stiffness_n_per_m
+        };
+        rig.controller.adopt(&Scene {
+            stiffness: hapticd_control::scene::StiffnessScope::Workspace,
+            ..scene(&[], 0.0)
+        });
+        rig.step();
+        assert!(rig.record.stiffness_n_per_m <= pose_n_per_m);
+        seen.push(rig.record.stiffness_n_per_m);
+    }
+    assert!(seen
+        .iter()
+        .all(|stiffness| (stiffness - seen[0]).abs() < 1e-6 * seen[0]));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(48) })]
+
+    /// Law 2: from full contact to nothing within two fade times, whatever the device.
+    #[test]
+    fn every_soft_stop_ends_in_nothing_within_two_fades(model in any_model(), depth_m in 0.0..0.01_f64) {
+        let releases = model.brakes.is_none_or(|brakes| brakes.release_on_stop);
+        let mut rig = Rig::pressing(model, depth_m);
+        ask(&mut rig, Event::Disable);
+        let _ = fade_out(&mut rig);
+        prop_assert!(is_zero(&rig.command) || !releases);
+    }
+}
