@@ -5,7 +5,7 @@ use hapticd_control::io::{status, Exchange, Observation};
 use hapticd_control::linear::V3;
 use hapticd_control::model::DeviceModel;
 use hapticd_control::record::TickRecord;
-use hapticd_control::scene::{Scene, Wall};
+use hapticd_control::scene::Scene;
 use std::time::Instant;
 
 const TICKS: u64 = 200_000;
