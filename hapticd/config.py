@@ -24,6 +24,9 @@ ENV_PREFIX = "HAPTICD_"
 CONFIG_VARIABLE = "HAPTICD_CONFIG"
 """Names the configuration file, where the command line does not."""
 
+CLIENT_VARIABLES = frozenset({"HAPTICD_URL"})
+"""Variables of the client, which mean nothing here."""
+
 TWIN_DRIVER = "twin"
 
 
@@ -184,7 +187,7 @@ def _read_toml(file: Path) -> dict[str, Any]:
 
 
 def _refuse_unknown_variables(environment: Mapping[str, str]) -> None:
-    known = {ENV_PREFIX + name.upper() for name in Config.model_fields} | {CONFIG_VARIABLE}
+    known = {ENV_PREFIX + name.upper() for name in Config.model_fields} | {CONFIG_VARIABLE} | CLIENT_VARIABLES
     for variable in environment:
         if variable.startswith(ENV_PREFIX) and variable.split("__")[0] not in known:
             detail = f"The environment variable {variable} is unknown.{nearest(variable, known)}"

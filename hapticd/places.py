@@ -6,6 +6,9 @@ import os
 import tempfile
 from pathlib import Path
 
+MEMORY = Path("/dev/shm")
+"""A file system in memory, on every Linux."""
+
 
 def default_state_dir() -> Path:
     """``$XDG_STATE_HOME/hapticd``, by default ``~/.local/state/hapticd``."""
@@ -13,9 +16,15 @@ def default_state_dir() -> Path:
 
 
 def default_runtime_dir() -> Path:
-    """``$XDG_RUNTIME_DIR/hapticd``, else a directory of this user under the temporary one."""
+    """``$XDG_RUNTIME_DIR/hapticd``, else a directory of this user in memory, else one under the temporary one.
+
+    In memory, because writing shared pages back to a disk can hold up the loop that touches them.
+    """
     runtime = os.environ.get("XDG_RUNTIME_DIR")
-    return Path(runtime) / "hapticd" if runtime else Path(tempfile.gettempdir()) / f"hapticd-{os.getuid()}"
+    if runtime:
+        return Path(runtime) / "hapticd"
+    parent = MEMORY if os.access(MEMORY, os.W_OK) else Path(tempfile.gettempdir())
+    return parent / f"hapticd-{os.getuid()}"
 
 
 def xdg(variable: str, default: str) -> Path:

@@ -132,3 +132,11 @@ def test_a_broken_package_does_not_take_the_other_commands_away(
     cli.add_commands(app)
     assert CliRunner().invoke(app, ["status", "--help"]).exit_code == 0
     assert "no_such_module" in capsys.readouterr().err
+
+
+def test_the_clients_variable_does_not_keep_the_daemon_from_starting(
+    served: list[Config], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("HAPTICD_URL", "http://127.0.0.1:9000")
+    assert run("run").exit_code == 0
+    assert served
