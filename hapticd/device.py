@@ -74,6 +74,7 @@ class Device:
         self._misses = Misses()
         self._told_until_ns = 0
         self._estop_lost = False
+        self._restored = False
 
     # State -------------------------------------------------------------------------------------
 
@@ -199,6 +200,7 @@ class Device:
         self._channel = Channel(self.device_id, link)
         self._why_offline = None
         self._attachments += 1
+        self._restored = False
         self._misses = Misses()
         started = datetime.fromtimestamp(link.info()["started_utc_ns"] / 1e9, UTC)
         self._told_until_ns = self._events.loop_told_until_ns(self.device_id, started)
@@ -208,7 +210,7 @@ class Device:
         if self._channel is not None:
             self._channel.close(why)
             reading = self._reading()
-            self._estop_lost = reading is not None and reading.flags.estop
+            self._estop_lost = self._estop_lost or (reading is not None and reading.flags.estop)
         self._link, self._channel = None, None
         self._why_offline = why
 
@@ -217,15 +219,18 @@ class Device:
         self._why_offline = why
 
     async def restore(self) -> None:
-        """Gives a servo that was just attached what it does not know: E-stop, hand and scene.
+        """Gives the servo what it does not know: E-stop, hand and scene. Nothing to do costs nothing.
 
-        A latched E-stop does not end with the servo that latched it, only by its acknowledgement.
+        A latched E-stop does not end with the servo that latched it, only by its acknowledgement. The scene
+        is also sent again when the loop renders another revision, as after an edit nobody acknowledged.
         """
         if self._estop_lost:
             await self.engage_estop()
-        if self.is_twin:
+            self._estop_lost = False
+        if self.is_twin and not self._restored:
             await self.set_hand(self._hand)
-        await self._editor.send_present()
+        await self._editor.send_present(lambda: not (self._restored and self.scene_in_force))
+        self._restored = True
 
     @property
     def scene_in_force(self) -> bool:

@@ -67,7 +67,7 @@ class DeviceReporter:
             scene_in_force=in_force(editor, reading),
             walls=len(editor.scene.walls),
             limits=self.limits,
-            health=_health(attachment, status),
+            health=_health(attachment, reading, status),
         )
 
 
@@ -91,14 +91,14 @@ def _touched(editor: SceneEditor, reading: Reading) -> str | None:
     return editor.wall_id(index) if index != NO_WALL and in_force(editor, reading) else None
 
 
-def _health(attachment: Attachment, status: ServoStatus | None) -> Health:
+def _health(attachment: Attachment, reading: Reading | None, status: ServoStatus | None) -> Health:
     restarts = max(0, attachment.count - 1)
     if status is None:
         return Health(online=False, why=attachment.why or "Its servo is starting.", restarts=restarts)
     scheduling = status["scheduling"]
     return Health(
         online=True,
-        why=attachment.why,
+        why=attachment.why if reading is None or reading.state == "offline" else None,
         restarts=restarts,
         pid=attachment.pid,
         identity=status["identity"] or None,

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from datetime import UTC, datetime
-from typing import Any, TypeVar
+from typing import Any
 
 from hapticd.events import EventLog
 from hapticd.problem import Problem
@@ -18,8 +18,6 @@ Send = Callable[[Mapping[str, Any], float], Awaitable[Applied | None]]
 
 OFFLINE_NOTE = "The device is offline: the scene is kept on disk and goes into force when the device is back."
 DRY_RUN_NOTE = "Nothing was changed: this was a dry run."
-
-T = TypeVar("T")
 
 
 class SceneEditor:
@@ -34,6 +32,7 @@ class SceneEditor:
         self._stored = self._load()
         self._last_revision = self._stored.revision
         self._editing = asyncio.Lock()
+        self._edits: set[asyncio.Task[SceneResult]] = set()
         self._wall_ids = _wall_ids(self._stored.scene)
 
     @property
@@ -98,13 +97,20 @@ class SceneEditor:
         Order: check, send, acknowledge, disk, event. Once begun it is finished, also when the caller goes
         away, so that loop and disk agree. Raises ``Problem``.
         """
-        return await _finished(self._edit(change, if_match, dry_run))
+        edit = asyncio.create_task(self._edit(change, if_match, dry_run))
+        self._edits.add(edit)
+        edit.add_done_callback(self._edits.discard)
+        return await asyncio.shield(edit)
 
-    async def send_present(self) -> Applied | None:
-        """Puts the present scene in force in a loop that does not have it. Raises ``Problem``."""
+    async def send_present(self, needed: Callable[[], bool]) -> None:
+        """Puts the present scene in force in a loop that does not have it. Raises ``Problem``.
+
+        ``needed`` is asked between edits: an edit on its way looks like a loop that renders something else.
+        """
         async with self._editing:
-            flat, _ = flatten(self.scene, self.revision, 0.0)
-            return await self._send(flat, 0.0)
+            if needed():
+                flat, _ = flatten(self.scene, self.revision, 0.0)
+                await self._send(flat, 0.0)
 
     async def _edit(
         self, change: Callable[[Scene], Scene], if_match: str | None, dry_run: bool
@@ -174,8 +180,3 @@ class SceneEditor:
 
 def _wall_ids(scene: Scene) -> list[str]:
     return [wall.id for wall in scene.walls if wall.enabled]
-
-
-async def _finished(work: Coroutine[Any, Any, T]) -> T:
-    """Awaits ``work``, which goes on to its end even when the waiting is cancelled."""
-    return await asyncio.shield(asyncio.create_task(work))

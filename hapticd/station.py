@@ -25,6 +25,7 @@ from hapticd.supervisor import Supervisor
 from hapticd.telemetry import Telemetry
 
 DISABLE_TIMEOUT_S = 1.5
+SUPERVISORS_END_S = 1.0
 
 
 class Station:
@@ -52,6 +53,7 @@ class Station:
             device.id: self._supervisor(device, models[device.id]) for device in config.devices
         }
         self._tasks: list[asyncio.Task[None]] = []
+        self._supervising: list[asyncio.Task[None]] = []
         self._lock: IO[str] | None = None
         self._stopping = False
 
@@ -76,16 +78,19 @@ class Station:
         for device_id, telemetry in self.telemetry.items():
             self._tasks.append(asyncio.create_task(telemetry.run(), name=f"telemetry of {device_id}"))
         for device_id, supervisor in self._supervisors.items():
-            self._tasks.append(asyncio.create_task(supervisor.run(), name=f"supervisor of {device_id}"))
+            self._supervising.append(asyncio.create_task(supervisor.run(), name=f"supervisor of {device_id}"))
 
     async def stop(self) -> None:
         """Fades every force out, then ends servos and tasks; takes a few seconds at most."""
         self._stopping = True
         await asyncio.gather(*(self._disable(device) for device in self.devices.values()))
         await asyncio.gather(*(supervisor.stop() for supervisor in self._supervisors.values()))
-        for task in self._tasks:
+        if self._supervising:
+            await asyncio.wait(self._supervising, timeout=SUPERVISORS_END_S)
+        tasks = self._supervising + self._tasks
+        for task in tasks:
             task.cancel()
-        await asyncio.gather(*self._tasks, return_exceptions=True)
+        await asyncio.gather(*tasks, return_exceptions=True)
         self._heartbeat.stop()
         self.events.append("daemon.stopped", "The daemon stopped.", details={"boot_id": self.boot_id})
         if self._lock is not None:
@@ -94,7 +99,7 @@ class Station:
     def ready(self) -> list[str]:
         """What keeps the daemon from being ready, as sentences; empty when it is."""
         checks = [_check(device) for device in self.devices.values()]
-        failed = [task.get_name() for task in self._tasks if task.done()]
+        failed = [task.get_name() for task in self._supervising + self._tasks if task.done()]
         stopping = ["The daemon is stopping."] if self._stopping else []
         return (
             [check for check in checks if check]

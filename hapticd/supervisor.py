@@ -71,7 +71,7 @@ def is_running(pid: int) -> bool:
 
 
 class Supervisor:
-    """One device's supervisor. ``run`` is its task; ``stop`` ends servo and task."""
+    """One device's supervisor. ``run`` is its task; ``stop`` ends the servo and lets the task end."""
 
     def __init__(
         self,
@@ -92,6 +92,7 @@ class Supervisor:
         self._is_running = is_running
         self._backoff = backoff or Backoff()
         self._stopping = asyncio.Event()
+        self._last_failure: str | None = None
 
     async def run(self) -> None:
         """Attaches to a living servo or starts one, again and again until ``stop``."""
@@ -103,7 +104,10 @@ class Supervisor:
             await self._pause(self._backoff.pause_s())
 
     async def stop(self) -> None:
-        """Ends the servo that this supervisor started; one that others started runs on, without a front."""
+        """Ends the servo that this supervisor started; one that others started runs on, without a front.
+
+        ``run`` returns soon after.
+        """
         self._stopping.set()
         if not await self._servo.terminate():
             self._tell("servo.killed", "did not exit in time and was killed.")
@@ -113,7 +117,7 @@ class Supervisor:
             link = await self._attach_to_living() or await self._launch()
             await self._serve(link)
         except (ServoFailed, OSError) as error:
-            self._tell("servo.failed", f"has no servo. {error}")
+            self._tell_failure(str(error))
             self._device.detach(str(error))
         except Exception:
             # A fault in here must not leave the device without a supervisor: the next round starts afresh.
@@ -172,6 +176,7 @@ class Supervisor:
     async def _serve(self, link: Link) -> None:
         """Stays attached until the servo goes."""
         why = INTERRUPTED
+        self._last_failure = None
         self._heartbeat.add(link)
         self._device.attach(link)
         self._tell("servo.attached", "is attached to its servo.", {"pid": link.info()["pid"]})
@@ -197,15 +202,13 @@ class Supervisor:
         return why
 
     async def _restore(self) -> None:
-        """Puts hand and scene in force; tries again while the loop does not take them."""
+        """Puts hand and scene in force, and again whenever the loop does not render the present scene."""
         while True:
             try:
                 await self._device.restore()
             except Problem as problem:
                 self._tell("scene.not_restored", f"does not render its scene yet. {problem.detail}")
-                await asyncio.sleep(RESTORE_AGAIN_S)
-            else:
-                return
+            await asyncio.sleep(RESTORE_AGAIN_S)
 
     async def _explain_absence(self) -> None:
         """Says why the device is not there while its servo is: the servo's log has what the driver met."""
@@ -218,7 +221,16 @@ class Supervisor:
     def _gone(self, link: Link) -> str | None:
         if ending := self._servo.ending():
             return ending
+        if self._stopping.is_set() and self._servo.pid is None:
+            # Somebody else started this servo and stops it.
+            return STOPPING
         return None if link.servo_alive() else "Its servo stopped beating."
+
+    def _tell_failure(self, why: str) -> None:
+        """Tells why there is no servo, once for each reason: attempts go on for ever."""
+        if why != self._last_failure:
+            self._last_failure = why
+            self._tell("servo.failed", f"has no servo. {why}")
 
     def _tell(self, kind: str, message: str, details: Mapping[str, Any] | None = None) -> None:
         device_id = self._device.device_id

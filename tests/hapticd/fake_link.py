@@ -20,11 +20,15 @@ NOT_ENABLED = 1 << 8
 
 
 class FakeLink:
-    """Answers at the next look, unless ``mute``. A tick passes with each request and each ``run``."""
+    """Answers at the next look, unless ``mute`` or, having done it, ``forgetful``.
+
+    A tick passes with each request carried out and with each ``run``.
+    """
 
     def __init__(self, device_id: str = "phantom", pid: int = 4242) -> None:
         self.requests: list[dict[str, Any]] = []
         self.mute = False
+        self.forgetful = False
         self.full = False
         self.alive = True
         self.closed = False
@@ -88,7 +92,8 @@ class FakeLink:
             raise BlockingIOError
         self.requests.append(json.loads(request_json))
         if not self.mute:
-            self._acks.append(self._answer(len(self.requests), self.requests[-1]))
+            ack = self._answer(len(self.requests), self.requests[-1])
+            self._acks += [] if self.forgetful else [ack]
         return len(self.requests)
 
     def acks(self) -> list[Ack]:

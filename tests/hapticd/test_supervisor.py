@@ -14,6 +14,7 @@ import pytest
 from hapticd import channel, supervisor
 from hapticd.backoff import Backoff
 from hapticd.heartbeat import Heartbeat
+from hapticd.problem import Problem
 from hapticd.supervisor import Supervisor, is_running
 from tests.hapticd.conftest import Bench, make_wall
 from tests.hapticd.fake_link import FakeLink
@@ -29,6 +30,7 @@ class FakeServo:
         self.launches = 0
         self.stillborn: str | None = None
         self.alike = True
+        self.muted_from_birth = False
         self.terminated = False
         self.dead: set[int] = set()
         self._ending: str | None = None
@@ -46,6 +48,7 @@ class FakeServo:
         if not self.stillborn:
             self.link = FakeLink(pid=1000 + self.launches)
             self.link.run()
+            self.link.mute = self.muted_from_birth
 
     def ending(self) -> str | None:
         return self._ending
@@ -55,7 +58,8 @@ class FakeServo:
 
     async def terminate(self) -> bool:
         self.terminated = True
-        self.die("Its servo exited with code 0.")
+        if self.launches:
+            self.die("Its servo exited with code 0.")
         return True
 
     def die(self, why: str) -> None:
@@ -256,6 +260,52 @@ async def test_cancelled_supervisor_lets_go_of_a_servo_that_runs_on(watch: Watch
         await watch.task
     watch.task = None
     assert (watch.state, watch.why, watch.link.closed) == ("offline", "Its supervisor was interrupted.", True)
+
+
+async def test_edit_nobody_acknowledged_does_not_stay_in_the_loop(
+    watch: Watch, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    watch.start()
+    await watch.until(lambda: watch.bench.device.scene_in_force)
+    monkeypatch.setattr(channel, "ACK_TIMEOUT_S", 0.02)
+    watch.link.forgetful = True
+    with pytest.raises(Problem, match="did not acknowledge"):
+        await watch.bench.device.put_wall(make_wall("floor"))
+    watch.link.forgetful = False
+    await watch.until(lambda: watch.bench.device.scene_in_force)
+    assert watch.link.requests[-1]["scene"]["walls"] == []
+
+
+async def test_estop_is_not_lost_when_servo_after_servo_dies(watch: Watch) -> None:
+    watch.start()
+    await watch.until(lambda: watch.bench.device.scene_in_force)
+    await watch.bench.device.engage_estop()
+    watch.servo.muted_from_birth = True
+    watch.servo.die("Its servo was killed by signal 9.")
+    await watch.until(lambda: watch.servo.launches == 2 and watch.state == "disabled")
+    watch.servo.muted_from_birth = False
+    watch.servo.die("Its servo was killed by signal 9.")
+    await watch.until(lambda: watch.servo.launches == 3 and watch.bench.device.scene_in_force)
+    assert watch.bench.device.snapshot().flags.estop
+
+
+async def test_lasting_failure_is_told_once(watch: Watch) -> None:
+    watch.servo.stillborn = "Its servo exited with code 1."
+    watch.start()
+    await watch.until(lambda: watch.servo.launches >= 5)
+    watch.servo.stillborn = "Its servo exited with code 2."
+    await watch.until(lambda: watch.why == "Its servo exited with code 2.")
+    assert watch.bench.kinds().count("servo.failed") == 2
+
+
+async def test_servo_that_others_started_runs_on_when_the_daemon_stops(watch: Watch) -> None:
+    watch.servo.link = FakeLink(pid=77)
+    watch.servo.link.run()
+    watch.start()
+    await watch.until(lambda: watch.bench.device.scene_in_force)
+    await watch.stop()
+    assert (watch.state, watch.why, watch.link.closed) == ("offline", "The daemon is stopping.", True)
+    assert {"type": "stop"} not in watch.link.requests
 
 
 async def test_stopping_ends_the_servo_for_good(watch: Watch) -> None:
