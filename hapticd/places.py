@@ -16,7 +16,7 @@ def default_state_dir() -> Path:
 
 
 def default_runtime_dir() -> Path:
-    """``$XDG_RUNTIME_DIR/hapticd``, else a directory of this user in memory, else one under the temporary one.
+    """``$XDG_RUNTIME_DIR/hapticd``, else one of this user in memory, else one under the temporary one.
 
     In memory, because writing shared pages back to a disk can hold up the loop that touches them.
     """
