@@ -1,0 +1,162 @@
+// One device on the page: its drawing, readings, buttons, chart and walls.
+
+import { put } from "./api.js";
+import { Chart } from "./chart.js";
+import { copyOf, element, partsOf } from "./dom.js";
+import { Drawing } from "./drawing.js";
+import { draggable, Hand } from "./hand.js";
+import { views } from "./kinematics.js";
+import { notices } from "./notices.js";
+import { attempt } from "./toast.js";
+import { norm } from "./vector.js";
+import { Walls } from "./walls.js";
+
+const STATES = ["offline", "disabled", "enabled", "paused", "fault"];
+const SILENT_AFTER_MS = 700;
+const CONTACT_FLAG = 32;
+const POSE_SIGNALS = [
+  "state", "flags", "joint_position_rad", "tip_position_m", "setpoint_position_m", "tip_force_n",
+  "contact_depth_m", "stiffness_n_per_m", "hand_position_m",
+];
+
+export class DevicePanel {
+  constructor(device, model, stream) {
+    this.device = device;
+    this.path = `/devices/${device.id}`;
+    this.snapshot = device;
+    this.root = copyOf("device");
+    this.parts = partsOf(this.root);
+    this.root.querySelector("h2").textContent = device.id;
+    const kind = device.twin ? "simulated twin" : `on ${device.driver}`;
+    this.parts.about.textContent = `${device.model} · ${kind} · ${device.rate_hz / 1000} kHz`;
+    this.drawings = views(model.kinematics).map((view) => this.#drawing(view, model));
+    this.walls = new Walls(device, this.parts, {
+      tip: () => this.pose?.tip.slice(0, device.dof),
+      stiffness: () => this.pose?.stiffness ?? null,
+      changed: () => (this.stale = true),
+    });
+    this.chart = new Chart(device, this.parts, stream);
+    this.#wireButtons();
+    this.#wireHand();
+    stream.subscribe({ id: `${device.id}/pose`, device: device.id, signals: POSE_SIGNALS, rate_hz: 60 });
+    this.show(device);
+    this.walls.refresh();
+  }
+
+  #drawing(view, model) {
+    const figure = element("div", "", "view");
+    const canvas = element("canvas");
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `${this.device.id}, ${view.title.toLowerCase()} view`);
+    figure.append(canvas, element("span", `${view.title} view`));
+    this.parts.stage.append(figure);
+    return new Drawing(canvas, view, model);
+  }
+
+  #wireButtons() {
+    const { enable, pause, estop } = this.parts;
+    const desire = (desired) => attempt(() => put(`${this.path}/state`, { desired }));
+    enable.addEventListener("click", () => desire(this.state === "enabled" || this.state === "paused" ? "disabled" : "enabled"));
+    pause.addEventListener("click", () => desire(this.state === "paused" ? "enabled" : "paused"));
+    estop.addEventListener("click", () => attempt(() => put(`${this.path}/estop`)));
+  }
+
+  #wireHand() {
+    this.parts.hand.hidden = !this.device.twin;
+    if (!this.device.twin) return;
+    const hand = new Hand(this.device.id, this.device.dof);
+    this.parts.stage.classList.add("movable");
+    for (const drawing of this.drawings) draggable(drawing, hand, () => this.pose?.hand);
+    this.parts.free.addEventListener("click", () => hand.tell({ type: "free" }));
+    this.parts.stroke.addEventListener("click", () => {
+      const { dof } = this.device;
+      const center_m = (this.pose?.tip ?? [0, 0, 0]).slice(0, dof);
+      const axis = dof === 3 ? [0, 0, 1] : [0, 1];
+      hand.tell({ type: "stroke", center_m, axis, amplitude_m: dof === 3 ? 0.03 : 0.06, frequency_hz: 0.5 });
+    });
+  }
+
+  /** Takes a telemetry frame of this device. */
+  take(frame) {
+    if (frame.sub === this.chart.id) {
+      this.chart.take(frame);
+    } else if (frame.sub === `${this.device.id}/pose`) {
+      const { values } = frame;
+      this.pose = {
+        q: values.joint_position_rad,
+        tip: values.tip_position_m,
+        setPoint: values.setpoint_position_m,
+        force: values.tip_force_n,
+        depth: values.contact_depth_m,
+        stiffness: values.stiffness_n_per_m,
+        inContact: (values.flags & CONTACT_FLAG) !== 0,
+        hand: this.device.twin ? values.hand_position_m : null,
+      };
+      this.heardAt = performance.now();
+      if (STATES[values.state] !== this.state) this.#showState(STATES[values.state]);
+    }
+    this.stale = true;
+  }
+
+  /** Takes the device as the daemon describes it. */
+  show(snapshot) {
+    const moved = snapshot.scene_revision !== this.snapshot.scene_revision;
+    this.snapshot = snapshot;
+    this.parts.notices.replaceChildren(...notices(snapshot));
+    this.#showState(snapshot.state);
+    if (moved) this.walls.refresh();
+  }
+
+  #showState(state) {
+    this.state = state;
+    const { estop } = this.snapshot.flags;
+    const { parts } = this;
+    parts.state.textContent = estop ? "E-stop" : state;
+    parts.state.dataset.state = estop ? "stopped" : state;
+    const running = state === "enabled" || state === "paused";
+    parts.enable.textContent = running ? "Disable" : "Enable";
+    parts.enable.classList.toggle("primary", !running);
+    parts.enable.disabled = state === "offline" || state === "fault" || estop;
+    parts.pause.textContent = state === "paused" ? "Resume" : "Pause";
+    parts.pause.disabled = !running;
+    parts.estop.disabled = state === "offline" || estop;
+  }
+
+  /** Draws what is new; says so when nothing is. */
+  draw(connected) {
+    const silent = performance.now() - (this.heardAt ?? 0) > SILENT_AFTER_MS;
+    const dark = !connected || silent;
+    this.root.classList.toggle("dark", dark);
+    if (dark) this.parts.veil.textContent = connected ? this.#whySilent() : "Not live: connection lost";
+    if (!this.stale) return;
+    this.stale = false;
+    const touched = this.pose?.inContact ? this.#touched() : null;
+    for (const drawing of this.drawings) drawing.draw(this.pose, this.walls.walls, touched);
+    this.chart.draw();
+    this.walls.update(touched);
+    if (this.pose) this.#showReadings(touched);
+  }
+
+  #whySilent() {
+    if (!this.heardAt && this.snapshot.state !== "offline") return "Waiting for the first tick…";
+    return `Offline. ${this.snapshot.health.why ?? "No ticks arrive."}`;
+  }
+
+  // The deepest wall of those the tip is in, as the loop has it.
+  #touched() {
+    const depth = ({ shape }) =>
+      shape.normal.reduce((sum, n, axis) => sum + n * (shape.point_m[axis] - this.pose.tip[axis]), 0);
+    const walls = this.walls.walls.filter(({ enabled }) => enabled);
+    return walls.reduce((best, wall) => (!best || depth(wall) > depth(best) ? wall : best), null)?.id ?? null;
+  }
+
+  #showReadings(touched) {
+    const { force, depth, stiffness, tip } = this.pose;
+    const { parts } = this;
+    parts.force.textContent = `${norm(force).toFixed(2)} N`;
+    parts.depth.textContent = touched ? `${(depth * 1000).toFixed(2)} mm` : "–";
+    parts.stiffness.textContent = `${(stiffness / 1000).toFixed(2)} N/mm`;
+    parts.wall.textContent = touched ?? "nothing";
+    parts.tip.textContent = tip.slice(0, this.device.dof).map((value) => (value * 1000).toFixed(1).replace("-", "−")).join("   ");
+  }
+}
