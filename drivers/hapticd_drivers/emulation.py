@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import time
@@ -31,6 +32,9 @@ class EmulatedDevice(Protocol):
 
     def next_s(self) -> float:
         """When it wants to be advanced next."""
+
+    def answers(self) -> bool:
+        """Whether it reacts to what it receives at once; otherwise when it is advanced."""
 
     def control(self, message: dict[str, Any]) -> None:
         """Acts on a message of the operator. Raises `OptionError`, ValueError."""
@@ -68,6 +72,7 @@ class Emulation:
 
         Lines of JSON on `commands_fd` go to the device; `refused` is told about bad ones.
         """
+        gc.freeze()  # a collection over everything imported would hold a frame up for tens of milliseconds
         start_s = time.monotonic()
         self._device.start(0.0)
         while not stopped():
@@ -75,13 +80,18 @@ class Emulation:
             ready = self._wait(commands_fd, max(self._next_s() - now_s, 0.0))
             now_s = time.monotonic() - start_s
             self._plug(now_s)
-            data = self._terminal.read() if self._terminal.fd in ready else b""
-            self._exchange(data, now_s)
+            self._exchange(self._terminal.read(), now_s)
             if commands_fd in ready and not self._listen(commands_fd, refused):
                 commands_fd = None
 
     def _wait(self, commands_fd: int | None, timeout_s: float) -> list[int]:
-        watched = [fd for fd in (self._terminal.fd, commands_fd) if fd is not None and fd >= 0]
+        """Sleeps until something is to be done; returns what can be read.
+
+        The port is watched only by a device that answers: to look at it may take the kernel longer
+        than a tick (see `SerialTransport.read`), and a device with a timer of its own must not wait.
+        """
+        port = self._terminal.fd if self._device.answers() else None
+        watched = [fd for fd in (port, commands_fd) if fd is not None and fd >= 0]
         return select(watched, (), (), min(timeout_s, IDLE_S))[0]
 
     def _next_s(self) -> float:

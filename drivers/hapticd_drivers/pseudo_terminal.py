@@ -7,6 +7,8 @@ import os
 import tty
 from pathlib import Path
 
+from hapticd_drivers.transport import bytes_waiting
+
 
 class PseudoTerminal:
     """A port that a driver opens like any serial port.
@@ -32,11 +34,9 @@ class PseudoTerminal:
             fresh.replace(self._link)
 
     def read(self) -> bytes:
-        """Whatever has arrived; empty when nothing has."""
-        try:
-            return os.read(self.fd, 4096)
-        except BlockingIOError:
-            return b""
+        """Whatever has arrived; empty when nothing has, or when the plug is out. Never waits."""
+        size = bytes_waiting(self.fd) if self.fd >= 0 else 0
+        return os.read(self.fd, size) if size else b""
 
     def write(self, data: bytes) -> None:
         """Sends; what nobody reads is lost, as on a wire."""

@@ -39,7 +39,7 @@ class DriverConformance:
         assert rig.connect().driver.identity != ""
 
     def test_every_tick_brings_an_observation(self, rig: Any) -> None:
-        rig.connect()
+        rig.connect().tick()
         for _ in range(50):
             before = rig.seen()
             assert rig.tick() == FRESH

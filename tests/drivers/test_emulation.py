@@ -34,6 +34,9 @@ class Echo:
     def next_s(self) -> float:
         return self._next_s
 
+    def answers(self) -> bool:
+        return True
+
     def control(self, message: dict[str, Any]) -> None:
         if "bad" in message:
             raise OptionError("bad is bad")

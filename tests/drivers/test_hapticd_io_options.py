@@ -34,7 +34,7 @@ def test_little_has_to_be_said() -> None:
     assert (options.motors.unit, options.motors.gains) == (UNIT_VOLT, (2.3, 2.3))
     assert options.brakes is not None
     assert (options.brakes.channels, options.brakes.unit) == ((2, 3), UNIT_MILLIAMPERE)
-    assert (options.watchdog_s, options.reply_timeout_s, options.pacing) == (0.05, 0.0008, "device")
+    assert (options.watchdog_s, options.reply_timeout_s, options.pacing) == (0.05, 0.0006, "device")
 
 
 @pytest.mark.parametrize(

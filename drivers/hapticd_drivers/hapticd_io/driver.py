@@ -6,12 +6,12 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Final
 
-from hapticd_drivers.error import DeviceLost, NoAnswer, WrongDevice
+from hapticd_drivers.error import DeviceLost, DriverError, NoAnswer, WrongDevice
 from hapticd_drivers.hapticd_io.frame import FLAG_RESYNC, Frame, Kind
 from hapticd_drivers.hapticd_io.handshake import configure, describe
 from hapticd_drivers.hapticd_io.link import Link
 from hapticd_drivers.hapticd_io.needs import Needs
-from hapticd_drivers.hapticd_io.observation import Observer
+from hapticd_drivers.hapticd_io.observation import OBSERVATION, Observer
 from hapticd_drivers.hapticd_io.options import Options
 from hapticd_drivers.hapticd_io.protocol import (
     CONTROL_CLEAR_FAULTS,
@@ -19,10 +19,11 @@ from hapticd_drivers.hapticd_io.protocol import (
     STATUS_SAFE,
     WATCHDOG_UNIT_S,
     Command,
+    Description,
     State,
 )
 from hapticd_drivers.hapticd_io.timeline import SEQ_BITS, Timeline, wrapped_distance
-from hapticd_drivers.hapticd_io.wiring import Wiring
+from hapticd_drivers.hapticd_io.wiring import COMMAND_BYTES, Wiring
 from hapticd_drivers.transport import ByteTransport, SerialTransport
 
 if TYPE_CHECKING:
@@ -31,6 +32,12 @@ if TYPE_CHECKING:
 FRESH: Final = 0
 MISSING: Final = 1
 DOWN: Final = 2
+
+BACKLOG_BYTES: Final = 256
+"""A read of so much means that frames have piled up, and that there may be more of them."""
+
+REHEARSALS: Final = 20
+"""Exchanges before a connection is handed over."""
 
 SILENCE_S: Final = 1.0
 """Without a STATE for this long the connection is made anew."""
@@ -81,21 +88,30 @@ class HapticdIo:
         self._link = Link(self._link.counters)
         self._transport.open()
         try:
-            board = describe(self._link, self._transport, self._clock)
-            if self._uid not in (None, board.uid):
-                raise WrongDevice(f"board {board.uid.hex()} answers, {self._uid.hex()} is configured")
-            self._wiring = Wiring(self._options, self._needs, board)
-            configure(self._link, self._transport, self._clock, self._options, self._wiring.outputs, board)
-        except (DeviceLost, NoAnswer, WrongDevice):
+            self._set_up(describe(self._link, self._transport, self._clock))
+            self._rehearse()
+        except DriverError:
             self._transport.close()
             raise
-        self._uid = board.uid
-        self.identity = (
-            f"{board.name} {board.uid.hex()} firmware {board.firmware >> 8}.{board.firmware & 0xFF:02d}"
-        )
+
+    def _set_up(self, board: Description) -> None:
+        if self._uid not in (None, board.uid):
+            raise WrongDevice(f"board {board.uid.hex()} answers, {self._uid.hex()} is configured")
+        self._wiring = Wiring(self._options, self._needs, board)
         self._observer = Observer(self._wiring)
+        configure(self._link, self._transport, self._clock, self._options, self._wiring.outputs, board)
+        self._uid = board.uid
+        version = f"{board.firmware >> 8}.{board.firmware & 0xFF:02d}"
+        self.identity = f"{board.name} {board.uid.hex()} firmware {version}"
         self._timeline.anchor(int(self._clock() * 1e9))
         self._reset()
+
+    def _rehearse(self) -> None:
+        """Some exchanges with outputs off: the first ones are slow, and the board gets its fault cleared."""
+        command, observation = memoryview(bytes(COMMAND_BYTES)), memoryview(bytearray(OBSERVATION.size))
+        outcomes = [self.exchange(command, observation) for _ in range(REHEARSALS)]
+        if FRESH not in outcomes:
+            raise NoAnswer("the board describes itself but sends no STATE")
 
     def exchange(self, command: memoryview, observation: memoryview) -> int:
         """Sends ten doubles, fills `observation` with the newest STATE; never waits past the tick.
@@ -103,9 +119,10 @@ class HapticdIo:
         Returns:
             `FRESH`, `MISSING` (nothing new; `observation` is untouched) or `DOWN` (connect anew).
         """
+        deadline = self._clock() + self._options.reply_timeout_s
         try:
             self._send(command)
-            frame = self._newest()
+            frame = self._newest(deadline)
         except DeviceLost:
             return DOWN
         if frame is None:
@@ -161,21 +178,25 @@ class HapticdIo:
             self._withdrawn_seq = None
         return self._withdrawn_seq is None and state.fault == 0 and not state.status & STATUS_SAFE
 
-    def _newest(self) -> Frame | None:
+    def _newest(self, deadline: float) -> Frame | None:
         """The newest STATE; host-paced, the one that answers the command just sent if it comes in time."""
         newest: Frame | None = None
-        wait_s = self._options.reply_timeout_s if self._answers_at_once else 0.0
-        deadline = self._clock() + self._options.reply_timeout_s
+        wait_s = max(deadline - self._clock(), 0.0) if self._answers_at_once else 0.0
         while True:
-            for frame in self._link.receive(self._transport.read(wait_s)):
+            chunk = self._transport.read(wait_s)
+            for frame in self._link.receive(chunk):
                 newest = self._take(frame) or newest
-            if newest is not None and (not self._answers_at_once or newest.ack == self._link.seq):
-                break
-            wait_s = deadline - self._clock()
-            if wait_s <= 0.0:
+            left_s = deadline - self._clock()
+            backlog = len(chunk) >= BACKLOG_BYTES
+            if newest is not None and not backlog and self._is_awaited(newest):
+                return newest
+            if left_s <= 0.0:
                 self._late += newest is not None
-                break
-        return newest
+                return newest
+            wait_s = left_s
+
+    def _is_awaited(self, frame: Frame) -> bool:
+        return not self._answers_at_once or frame.ack == self._link.seq
 
     def _take(self, frame: Frame) -> Frame | None:
         if frame.flags & FLAG_RESYNC:

@@ -58,6 +58,10 @@ class Emulator:
         """See `EmulatedDevice.next_s`."""
         return self._next_s
 
+    def answers(self) -> bool:
+        """See `EmulatedDevice.answers`."""
+        return self.board.host_paced
+
     def receive(self, data: bytes, now_s: float) -> bytes:
         """See `EmulatedDevice.receive`. A host-paced STATE leaves before the physics of the next tick."""
         replies = []

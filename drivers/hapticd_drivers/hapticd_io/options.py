@@ -14,7 +14,7 @@ from hapticd_drivers.option_reader import OptionReader
 AI_CHANNELS: Final = 8
 AO_CHANNELS: Final = 8
 ENCODER_CHANNELS: Final = 4
-REPLY_SHARE: Final = 0.8
+REPLY_SHARE: Final = 0.6
 """Share of a tick that an exchange may wait, where nothing else is said; the rest is the core's."""
 
 PACINGS: Final = ("device", "host")

@@ -25,6 +25,7 @@ BRAKE_TORQUE_AT: Final = 7
 _UNIT_NAMES: Final = {UNIT_VOLT: "V", UNIT_MILLIAMPERE: "A"}
 _REACH_TOLERANCE: Final = 1.0 - 1e-9
 _COMMAND: Final = Struct("<10d")
+COMMAND_BYTES: Final = _COMMAND.size
 
 
 class Output(NamedTuple):
