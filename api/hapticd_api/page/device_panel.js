@@ -14,7 +14,7 @@ import { Walls } from "./walls.js";
 const STATES = ["offline", "disabled", "enabled", "paused", "fault"];
 const SILENT_AFTER_MS = 700;
 const CONTACT_FLAG = 32;
-const POSE_SIGNALS = [
+export const POSE_SIGNALS = [
   "state", "flags", "joint_position_rad", "tip_position_m", "setpoint_position_m", "tip_force_n",
   "contact_depth_m", "stiffness_n_per_m", "hand_position_m",
 ];

@@ -1,0 +1,135 @@
+// The page's own arithmetic: where links are drawn, what of a wall is seen, what the chart keeps.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { chains, views } from "../../../api/hapticd_api/page/kinematics.js";
+import { clipped, Projection } from "../../../api/hapticd_api/page/projection.js";
+import { History, roundStep } from "../../../api/hapticd_api/page/scope.js";
+import { charts } from "../../../api/hapticd_api/page/traces.js";
+import { newWall } from "../../../api/hapticd_api/page/wall_form.js";
+
+const PHANTOM = { type: "phantom", l1_m: 0.14, l2_m: 0.14 };
+const HHD = { type: "rhombus", l_m: 0.2 };
+const SIDE = { axes: [0, 2], center: [0.14, 0.02], span: [0.36, 0.36] };
+
+const tipOf = (kinematics, q) => chains(kinematics, q)[0].at(-1);
+
+function near(actual, expected, tolerance = 1e-9) {
+  actual.forEach((value, index) =>
+    assert.ok(Math.abs(value - expected[index]) < tolerance, `${actual} is not ${expected}`),
+  );
+}
+
+test("the drawn tip is where the rest pose has it", () => {
+  near(tipOf(PHANTOM, [0, 0.9, 0.9]), [0.1967, 0, 0.0226], 1e-4);
+  near(tipOf(HHD, [Math.PI / 6, (5 * Math.PI) / 6]), [0, 0.2, 0]);
+});
+
+test("every chain of a device ends at the same tip", () => {
+  const [left, right] = chains(HHD, [0.3, 2.2]);
+  near(left.at(-1), right.at(-1));
+});
+
+test("links keep their length in every pose", () => {
+  for (const q of [[0, 0, 0], [0.7, 1.2, 0.4], [-1, -0.3, 0.5]]) {
+    const [[base, elbow, tip]] = chains(PHANTOM, q);
+    for (const [a, b] of [[base, elbow], [elbow, tip]]) {
+      near([Math.hypot(...a.map((value, axis) => value - b[axis]))], [0.14]);
+    }
+  }
+});
+
+test("the rest pose lies inside every view of its device", () => {
+  const poses = [[PHANTOM, [0, 0.9, 0.9]], [HHD, [Math.PI / 6, (5 * Math.PI) / 6]]];
+  for (const [kinematics, q] of poses) {
+    for (const view of views(kinematics)) {
+      const [x, y] = new Projection(view, [400, 300]).toScreen(tipOf(kinematics, q));
+      assert.ok(x > 0 && x < 400 && y > 0 && y < 300);
+    }
+  }
+});
+
+test("a dragged point comes back to its pixel and keeps what the view hides", () => {
+  const projection = new Projection(SIDE, [400, 300]);
+  const point = projection.toBase([123, 45], [9, 0.05, 9]);
+  near(projection.toScreen(point), [123, 45]);
+  assert.equal(point[1], 0.05);
+});
+
+test("up in the base frame is up on the screen", () => {
+  const projection = new Projection(SIDE, [400, 300]);
+  assert.ok(projection.toScreen([0, 0, 0.1])[1] < projection.toScreen([0, 0, 0])[1]);
+});
+
+test("a floor fills what lies below it", () => {
+  const projection = new Projection(SIDE, [360, 360]);
+  const floor = { point_m: [0, 0, 0.02], normal: [0, 0, 1] };
+  const { polygon, edge } = projection.wall(floor, [0, 0, 0]);
+  near(polygon.map(([, y]) => y).sort((a, b) => a - b), [180, 180, 360, 360]);
+  near(edge.map(([, y]) => y), [180, 180]);
+});
+
+test("a wall across the view is cut where the tip is", () => {
+  const projection = new Projection(SIDE, [360, 360]);
+  const slanted = { point_m: [0.14, 0, 0], normal: [0.6, 0.8, 0] };
+  const x = (tip) => projection.wall(slanted, tip).edge[0][0];
+  // 0.6 x + 0.8 y = 0.084: three centimetres in y move the cut by four in x.
+  near([x([0, 0, 0]) - x([0, 0.03, 0])], [40]);
+});
+
+test("a wall that faces the viewer is seen only by a tip inside it", () => {
+  const projection = new Projection(SIDE, [360, 360]);
+  const side = { point_m: [0, 0.05, 0], normal: [0, 1, 0] };
+  assert.equal(projection.wall(side, [0, 0.1, 0]).polygon.length, 0);
+  assert.equal(projection.wall(side, [0, 0.0, 0]).polygon.length, 4);
+  assert.equal(projection.wall(side, [0, 0.0, 0]).edge, null);
+});
+
+test("clipping keeps all, nothing, or the solid part", () => {
+  const square = [[0, 0], [1, 0], [1, 1], [0, 1]];
+  assert.equal(clipped(square, [1, 0], 2).length, 4);
+  assert.equal(clipped(square, [1, 0], -1).length, 0);
+  near(clipped(square, [1, 0], 0.5).map(([x]) => x), [0, 0.5, 0.5, 0]);
+});
+
+test("the chart forgets the oldest samples and keeps the order of the rest", () => {
+  const history = new History(1, 4);
+  for (let n = 0; n < 7; n += 1) history.push(n, [10 * n]);
+  const seen = [];
+  history.since(4, (time, at) => seen.push([time, history.traces[0][at]]));
+  assert.deepEqual(seen, [[4, 40], [5, 50], [6, 60]]);
+});
+
+test("a sample that is not finite leaves a gap", () => {
+  const history = new History(2, 4);
+  history.push(0, []);
+  assert.ok(Number.isNaN(history.traces[1][0]));
+});
+
+test("axis steps are round numbers", () => {
+  assert.equal(roundStep(10, 3), 5);
+  assert.equal(roundStep(0.9, 3), 0.5);
+  assert.equal(roundStep(30, 3), 10);
+});
+
+test("every chart makes one number for each of its labels", () => {
+  const device = { dof: 2, twin: true, traits: ["brakes"] };
+  const scalars = new Set(["contact_depth_m", "lateness_ns", "exchange_ns", "compute_ns"]);
+  for (const { signals, labels, values } of charts(device)) {
+    const tick = signals.map((name) => (scalars.has(name) ? 1 : [1, 2, 3]));
+    assert.equal(values(tick).length, labels.length);
+  }
+});
+
+test("a device without brakes or hand is not asked for them", () => {
+  const shown = charts({ dof: 3, twin: false, traits: [] });
+  assert.ok(!shown.some(({ title }) => title === "Brakes"));
+  assert.ok(!shown.some(({ signals }) => signals.includes("hand_force_n")));
+});
+
+test("a new wall lies beyond the tip and takes a free name", () => {
+  const wall = newWall(2, [0, 0.2], ["wall", "wall-2"]);
+  assert.equal(wall.id, "wall-3");
+  assert.deepEqual(wall.shape, { type: "plane", point_m: [-0, 0.22], normal: [0, -1] });
+});
