@@ -97,14 +97,6 @@ _TYPES = (
         "Use one of the allowed verbs.",
     ),
     ProblemType(
-        "not-acceptable",
-        406,
-        "This form is not available",
-        "The resource has no representation that the request accepts.",
-        "Look at the request's Accept header or subprotocol.",
-        "Ask for JSON.",
-    ),
-    ProblemType(
         "revision-stale",
         412,
         "The document has changed since you read it",

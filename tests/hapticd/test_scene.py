@@ -9,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from hapticd import _core
+from hapticd.model import load_model
 from hapticd.problem import Problem, invalid_document
 from hapticd.scene import MAX_WALLS, Scene, Wall, check_scene, edit_fade_s, flatten
 
@@ -154,6 +156,18 @@ def test_flat_scene_holds_enabled_walls_in_order_with_their_ids() -> None:
             {"normal": [0.0, 0.0, 1.0], "offset_m": -0.02, "eta": 0.5},
         ],
     }
+
+
+def test_core_takes_the_largest_scene_the_model_lets_through() -> None:
+    model = load_model("phantom-1.0")
+    simulation = _core.Simulation(model.device_json, model.twin_json, 1000.0, 1)
+    full = Scene.model_validate({"walls": [wall(id=f"w{index}") for index in range(MAX_WALLS)]})
+    for mapping in ("transpose", "inverse"):
+        for stiffness in ("pose", "workspace"):
+            for allocation in ("motor_only", "motor_and_brake", "brake_only"):
+                treatment = {"mapping": mapping, "stiffness": stiffness, "allocation": allocation}
+                flat, _ = flatten(full.model_copy(update=treatment), 1, 0.2)
+                assert simulation.request(json.dumps({"type": "scene", "scene": flat})) == 0
 
 
 def test_edit_fades_as_slowly_as_the_slowest_wall_that_changes() -> None:
