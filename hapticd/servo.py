@@ -84,7 +84,9 @@ def create_driver(document: Mapping[str, Any]) -> Driver | None:
 def _model(document: Mapping[str, Any]) -> Model:
     try:
         device = document["device_model"]
-        return Model(device["name"], device["dof"], json.dumps(device), json.dumps(document.get("twin_model")))
+        return Model(
+            device["name"], device["dof"], json.dumps(device), json.dumps(document.get("twin_model"))
+        )
     except (KeyError, TypeError) as error:
         raise ConfigError(f"device_model: {error!r}") from error
 

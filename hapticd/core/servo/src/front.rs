@@ -67,10 +67,18 @@ impl Front {
     /// # Errors
     /// [`SendError::Observer`] when this side only observes.
     pub fn heartbeat(&self) -> Result<(), SendError> {
+        self.heartbeat_at(monotonic_ns())
+    }
+
+    /// The same for a loop whose clock is not the kernel's.
+    ///
+    /// # Errors
+    /// [`SendError::Observer`] when this side only observes.
+    pub fn heartbeat_at(&self, now_ns: u64) -> Result<(), SendError> {
         if !self.is_front {
             return Err(SendError::Observer);
         }
-        self.store(live::FRONT_HEARTBEAT, monotonic_ns());
+        self.store(live::FRONT_HEARTBEAT, now_ns);
         Ok(())
     }
 

@@ -12,6 +12,7 @@ pub mod event;
 #[cfg(not(loom))]
 pub mod front;
 pub mod histogram;
+#[cfg(not(loom))]
 pub mod layout;
 pub mod lease;
 pub mod mailbox;
