@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from hapticd_drivers.error import OptionError
-from hapticd_drivers.registry import driver_module, driver_names
+from hapticd_drivers.registry import driver_names, emulator
 
 if TYPE_CHECKING:
     from hapticd_drivers.emulation import Emulation
@@ -28,34 +28,48 @@ Faults = Annotated[
 ]
 
 
-@app.command()
+@app.command(rich_help_panel="Hardware")
 def emulate(
     driver: Annotated[
         str, typer.Argument(help="Driver whose board is emulated.", autocompletion=driver_names)
     ],
     twin: Annotated[str, typer.Option(help="Device model behind the board.")] = "hhd",
     rate: Annotated[int, typer.Option(min=100, max=10_000, help="Tick rate, Hz.")] = 1000,
-    pacing: Annotated[str, typer.Option(help="Who keeps the beat in the snippet: host or device.")] = "host",
+    pacing: Annotated[
+        Literal["device", "host"], typer.Option(help="Who keeps the beat, for the snippet.")
+    ] = "device",
     faults: Faults = "",
     hand: Annotated[str, typer.Option(help="Task of the operator's hand, JSON.")] = '{"type": "hold"}',
     link: Annotated[Path | None, typer.Option(help="Path that always names the port.")] = None,
     seed: Annotated[int, typer.Option(help="Seed of noise, cable faults and serial number.")] = 1,
+    priority: Annotated[
+        int, typer.Option(min=0, max=98, help="SCHED_FIFO priority, where permitted; 0: none.")
+    ] = 50,
     as_json: Annotated[bool, typer.Option("--json", help="Print one line of JSON.")] = False,
 ) -> None:
-    """Puts a board with a device on a pseudo-terminal, until interrupted.
+    """Put a board with a device on a pseudo-terminal, until interrupted.
 
     Lines of JSON on standard input change it: {"hand": {"type": "follow", "target_m": [0, 0.2, 0]}},
     {"estop": true}, {"faults": "lose=0.1"}.
     """
     try:
-        emulation, report = driver_module(driver).emulate(
+        emulation, report = emulator(driver)(
             twin=twin, rate_hz=rate, pacing=pacing, faults=faults, hand=hand, link=link, seed=seed
         )
-    except (OptionError, ValueError, AttributeError) as error:
+    except ValueError as error:  # OptionError is one
         raise typer.BadParameter(str(error)) from error
+    report["realtime"] = _run_realtime(priority)
     typer.echo(json.dumps(report) if as_json else _told(report))
     sys.stdout.flush()
     _serve(emulation)
+
+
+def _run_realtime(priority: int) -> bool:
+    """Asks for real-time scheduling: a board's clock does not wait for other programs."""
+    if priority:
+        with contextlib.suppress(OSError):
+            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+    return os.sched_getscheduler(0) == os.SCHED_FIFO
 
 
 def _serve(emulation: Emulation) -> None:
@@ -80,7 +94,8 @@ def _input_fd() -> int | None:
 
 def _told(report: dict[str, Any]) -> str:
     return (
-        f"{report['model']} behind {report['driver']} at {report['rate_hz']} Hz: {report['port']}\n\n"
+        f"{report['model']} behind {report['driver']} at {report['rate_hz']} Hz: {report['port']}"
+        f"{'' if report['realtime'] else ' (no real-time scheduling: expect late frames)'}\n\n"
         f"{report['config']}\n"
         "Interrupt with Ctrl-C. Lines of JSON here change the hand, the E-stop input and the cable."
     )

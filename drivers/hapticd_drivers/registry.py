@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from importlib.metadata import entry_points
 from types import ModuleType
-from typing import Final
+from typing import Any, Final, cast
 
 from hapticd_drivers.error import OptionError
 
@@ -33,3 +34,15 @@ def driver_module(name: str) -> ModuleType:
         return import_module(target)
     except ImportError as error:
         raise OptionError(f"driver {name} cannot be imported: {error}") from error
+
+
+def emulator(name: str) -> Callable[..., Any]:
+    """The `emulate` of a driver's module: builds an `Emulation` and its report.
+
+    Raises:
+        OptionError: no such driver, or it has no emulator.
+    """
+    build = getattr(driver_module(name), "emulate", None)
+    if build is None:
+        raise OptionError(f"driver {name} has no emulator")
+    return cast(Callable[..., Any], build)
