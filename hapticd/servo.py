@@ -6,7 +6,7 @@ The configuration is one JSON object::
     device_model    the model, as ``Model.device_json`` holds it
     twin_model      the twin's plant, as ``Model.twin_json`` holds it; null for a device with a driver
     driver          "twin", or the name of an entry point in the group ``hapticd.drivers``
-    options         what the driver is created with
+    options         what the driver is created with; ``rate_hz`` is added where it is not given
     rate_hz         rate of the loop, Hz
     region          file of the shared memory
     realtime        "off", "preferred" or "required"
@@ -73,7 +73,8 @@ def create_driver(document: Mapping[str, Any]) -> Driver | None:
         known = ", ".join(sorted({TWIN, *entry_points(group=DRIVER_GROUP).names}))
         raise ConfigError(f"driver: there is no {name!r}. Drivers: {known}")
     try:
-        driver: Driver = found.load().create(document.get("options", {}), _model(document))
+        options = {"rate_hz": document["rate_hz"], **document.get("options", {})}
+        driver: Driver = found.load().create(options, _model(document))
     except Exception as error:
         # A driver is somebody else's code: what it raises while it is made is about its options or its
         # requirements, and the caller prints it.
