@@ -7,11 +7,10 @@ from prometheus_client import CollectorRegistry, Gauge, ProcessCollector
 from starlette.middleware import Middleware
 
 from hapticd.station import Station
-from hapticd_api import docs_page, errors, page_files
+from hapticd_api import docs_page, errors, openapi, page_files
 from hapticd_api.body import BodyGuard
 from hapticd_api.device_metrics import DeviceMetrics
 from hapticd_api.gate import Gate
-from hapticd_api.openapi import describe
 from hapticd_api.release import release
 from hapticd_api.request_metrics import RequestMetrics
 from hapticd_api.response_headers import ResponseHeaders
@@ -38,7 +37,7 @@ from hapticd_api.stream import endpoint
 _ROUTERS = (
     *(devices, model, state, interlocks, estop, faults, scene, walls, twin, events),
     *(root, system, asyncapi, health, metrics, problems),
-    *(docs_page, page_files, endpoint),
+    *(openapi, docs_page, page_files, endpoint),
 )
 
 
@@ -50,8 +49,7 @@ def create_app(station: Station) -> FastAPI:
     app = FastAPI(
         title="hapticd",
         version=release(),
-        docs_url=None,
-        redoc_url=None,
+        openapi_url=None,  # a route of our own serves it
         middleware=_middleware(station, registry),
     )
     app.state.station = station
@@ -60,7 +58,6 @@ def create_app(station: Station) -> FastAPI:
     for module in _ROUTERS:
         app.include_router(module.router)
     errors.install(app)
-    describe(app)
     return app
 
 

@@ -16,7 +16,7 @@ def checked(model: type[Model], document: Any) -> Model:
     try:
         return model.model_validate(document)
     except ValidationError as error:
-        raise refused_document(error.errors(), document, model.model_fields) from None
+        raise refused_document(error.errors(), document) from None
 
 
 def merged(target: Any, patch: Any) -> Any:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import cache
 from http import HTTPStatus
 from typing import Any
 
@@ -14,7 +15,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
 from hapticd.problem import Problem, invalid_document
-from hapticd_api.openapi import field_names
+from hapticd.scene import Document
 from hapticd_api.pointer import path_in
 from hapticd_api.problem_response import problem_response
 
@@ -41,9 +42,9 @@ async def _on_problem(_: Request, problem: Exception) -> Response:
     return problem_response(problem)
 
 
-async def _on_invalid(request: Request, error: Exception) -> Response:
+async def _on_invalid(_: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
-    return problem_response(refused_request(error.errors(), error.body, field_names(request.app)))
+    return problem_response(refused_request(error.errors(), error.body))
 
 
 async def _on_http(request: Request, error: Exception) -> Response:
@@ -63,14 +64,11 @@ def _allowed(headers: Mapping[str, str] | None) -> list[str] | None:
     return None if allow is None else [verb.strip() for verb in allow.split(",")]
 
 
-def refused_request(
-    errors: Sequence[Mapping[str, Any]], body: Any, known_names: Iterable[str] = ()
-) -> Problem:
+def refused_request(errors: Sequence[Mapping[str, Any]], body: Any) -> Problem:
     """The problem for a request that its models refused.
 
     `errors` is pydantic's list for the whole request, whose `loc` starts with the part of the request;
-    `body` is the parsed body, against which pointers are made; `known_names` are offered as corrections of
-    unknown fields.
+    `body` is the parsed body, against which pointers are made.
     """
     parts = {str(entry["loc"][0]) for entry in errors}
     if any(entry["type"] == "json_invalid" for entry in errors):
@@ -79,17 +77,15 @@ def refused_request(
         return _refused_parameter(next(entry for entry in errors if entry["loc"][0] != "body"))
     if any(tuple(entry["loc"]) == ("body",) and entry["type"] == "missing" for entry in errors):
         return Problem("invalid-document", "The request needs a JSON body and has none.", pointer="")
-    return refused_document([{**entry, "loc": entry["loc"][1:]} for entry in errors], body, known_names)
+    return refused_document([{**entry, "loc": entry["loc"][1:]} for entry in errors], body)
 
 
-def refused_document(
-    errors: Sequence[Mapping[str, Any]], document: Any, known_names: Iterable[str] = ()
-) -> Problem:
+def refused_document(errors: Sequence[Mapping[str, Any]], document: Any) -> Problem:
     """The problem for a document that its model refused, each error with its JSON pointer into `document`."""
     placed = [{**entry, "loc": path_in(document, entry["loc"])} for entry in errors]
     problem = invalid_document(placed)
     if problem.slug == "unknown-field":
-        _suggest(problem, str(placed[0]["loc"][-1]), known_names)
+        _suggest(problem, str(placed[0]["loc"][-1]))
     return problem
 
 
@@ -104,7 +100,19 @@ def _refused_parameter(entry: Mapping[str, Any]) -> Problem:
     return Problem(slug, f"The {part} parameter {name}: {entry['msg']}.")
 
 
-def _suggest(problem: Problem, name: str, known_names: Iterable[str]) -> None:
-    close = difflib.get_close_matches(name, sorted(known_names), n=1, cutoff=0.7)
+def _suggest(problem: Problem, name: str) -> None:
+    close = difflib.get_close_matches(name, _field_names(), n=1, cutoff=0.7)
     if close:
         problem.hint = f"Did you mean {close[0]!r}? Otherwise leave the field out."
+
+
+@cache
+def _field_names() -> list[str]:
+    """Every field that people may write in any document."""
+    names: set[str] = set()
+    models = [Document]
+    while models:
+        model = models.pop()
+        names |= set(model.model_fields)
+        models += model.__subclasses__()
+    return sorted(names)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
 from typing import Any
 
-from fastapi import FastAPI
+from fastapi import APIRouter, FastAPI, Request
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel, Field
+from starlette.responses import JSONResponse
 
 from hapticd_api.problem_response import MEDIA_TYPE
 
@@ -61,21 +63,19 @@ class ProblemDocument(BaseModel):
     errors: list[FieldError] | None = Field(None, description="Every offending field")
 
 
-def describe(app: FastAPI) -> None:
-    """Makes `app` serve the finished document, built when it is first asked for."""
+router = APIRouter(include_in_schema=False)
+_building = threading.Lock()
 
-    def openapi() -> dict[str, Any]:
+
+# Not a coroutine: building the document takes half a second, in which the event loop must go on.
+@router.get("/openapi.json")
+def get_document(request: Request) -> JSONResponse:
+    """The document, built when it is first asked for."""
+    app: FastAPI = request.app
+    with _building:
         if app.openapi_schema is None:
             app.openapi_schema = _finished(app)
-        return app.openapi_schema
-
-    app.openapi = openapi  # type: ignore[method-assign]  # the way FastAPI documents for its own schema
-
-
-def field_names(app: FastAPI) -> frozenset[str]:
-    """Every field name of every document of the API, to offer as a correction of a misspelt one."""
-    schemas = app.openapi()["components"]["schemas"].values()
-    return frozenset(name for schema in schemas for name in schema.get("properties", {}))
+    return JSONResponse(app.openapi_schema)
 
 
 def _finished(app: FastAPI) -> dict[str, Any]:
