@@ -73,7 +73,7 @@ class Device:
         self._attachments = 0
         self._misses = Misses()
         self._told_until_ns = 0
-        self._estop_lost = False
+        self._estop_owed = False
         self._restored = False
 
     # State -------------------------------------------------------------------------------------
@@ -81,7 +81,9 @@ class Device:
     def snapshot(self) -> DeviceSnapshot:
         """Everything about the device at this instant."""
         attachment = Attachment(self._why_offline, self._attachments, self._pid)
-        return self._reporter.snapshot(self._editor, attachment, self._reading(), self._status())
+        return self._reporter.snapshot(
+            self._editor, attachment, self._reading(), self._status(), estop=self.estop
+        )
 
     async def set_desired(self, desired: str) -> Applied:
         """Asks for ``enabled``, ``disabled`` or ``paused``.
@@ -96,12 +98,30 @@ class Device:
         fade_s = limits.ramp_s if desired == "enabled" else limits.fade_s
         return await self._apply({"type": "desired", "desired": desired}, fade_s)
 
-    async def engage_estop(self) -> Applied:
-        """Latches the E-stop: outputs are zero from that tick on. Idempotent."""
+    @property
+    def estop(self) -> bool:
+        """Whether the E-stop is latched, in the servo or for the next one."""
+        reading = self._reading()
+        return self._estop_owed or (reading is not None and reading.flags.estop)
+
+    async def engage_estop(self) -> Applied | None:
+        """Latches the E-stop: outputs are zero from that tick on. Idempotent.
+
+        None without a servo, which drives nothing: the next one is told before anything else.
+        """
+        if self._channel is None:
+            self._estop_owed = True
+            return None
         return await self._apply({"type": "estop"})
 
-    async def acknowledge_estop(self) -> Applied:
-        """Clears the latched E-stop. ``Problem`` (interlock-open) while its input is open."""
+    async def acknowledge_estop(self) -> Applied | None:
+        """Clears the latched E-stop; None where it only waited for a servo.
+
+        ``Problem``: interlock-open while its input is open, device-offline when nothing is known to be latched.
+        """
+        owed, self._estop_owed = self._estop_owed, False
+        if self._channel is None and owed:
+            return None
         return await self._apply({"type": "estop_ack"})
 
     async def acknowledge_fault(self, slug: str) -> Applied:
@@ -209,8 +229,7 @@ class Device:
         """Lets go of the link: the device is offline, and waiting requests end with a problem."""
         if self._channel is not None:
             self._channel.close(why)
-            reading = self._reading()
-            self._estop_lost = self._estop_lost or (reading is not None and reading.flags.estop)
+            self._estop_owed = self.estop
         self._link, self._channel = None, None
         self._why_offline = why
 
@@ -224,9 +243,8 @@ class Device:
         A latched E-stop does not end with the servo that latched it, only by its acknowledgement. The scene
         is also sent again when the loop renders another revision, as after an edit nobody acknowledged.
         """
-        if self._estop_lost:
-            await self.engage_estop()
-            self._estop_lost = False
+        if self._estop_owed and await self.engage_estop():
+            self._estop_owed = False
         if self.is_twin and not self._restored:
             await self.set_hand(self._hand)
         await self._editor.send_present(lambda: not (self._restored and self.scene_in_force))

@@ -41,7 +41,13 @@ class DeviceReporter:
         self._traits = _traits(device)
 
     def snapshot(
-        self, editor: SceneEditor, attachment: Attachment, reading: Reading | None, status: ServoStatus | None
+        self,
+        editor: SceneEditor,
+        attachment: Attachment,
+        reading: Reading | None,
+        status: ServoStatus | None,
+        *,
+        estop: bool,
     ) -> DeviceSnapshot:
         """Everything about the device, from what is known of it now."""
         dof = self._model.dof
@@ -54,7 +60,7 @@ class DeviceReporter:
             rate_hz=self._config.rate_hz,
             traits=self._traits,
             state=reading.state if reading else "offline",
-            flags=reading.flags if reading else Flags(),
+            flags=(reading.flags if reading else Flags()).model_copy(update={"estop": estop}),
             faults=faults(reading.integer("faults")) if reading else [],
             interlocks=interlocks(status["interlocks"] if reading and status else OFFLINE),
             tick=reading.integer("tick") if reading else None,

@@ -211,6 +211,20 @@ async def test_estop_outlives_the_servo_that_latched_it(attached: Bench) -> None
     assert not attached.device.snapshot().flags.estop
 
 
+async def test_estop_pressed_without_a_servo_is_latched_in_the_next_one(bench: Bench) -> None:
+    assert await bench.device.engage_estop() is None
+    assert bench.device.snapshot().flags.estop
+    await bench.attach()
+    assert bench.device.snapshot().flags.estop
+
+
+async def test_estop_acknowledged_before_a_servo_came_is_forgotten(bench: Bench) -> None:
+    await bench.device.engage_estop()
+    assert await bench.device.acknowledge_estop() is None
+    await bench.attach()
+    assert not bench.device.snapshot().flags.estop
+
+
 async def test_what_the_servo_tells_becomes_events_in_words(attached: Bench) -> None:
     attached.link.told = [
         {"seq": 0, "kind": "state", "tick": 5, "t_mono_ns": 5, "details": {"from": "enabled", "to": "fault"}},

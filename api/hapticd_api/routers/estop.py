@@ -25,11 +25,11 @@ class EstopReport(Report):
     device_id: str
     engaged: bool
     state: DeviceState
-    applied: Applied | None = None
+    applied: Applied | None = Field(None, description="Null when no loop runs that could be told")
 
 
 class StationEstop(Report):
-    """The emergency stops of all devices. An offline device drives nothing and cannot be reached."""
+    """The emergency stops of all devices."""
 
     engaged: bool = Field(description="Whether any device's emergency stop is latched")
     devices: list[EstopReport]
@@ -47,7 +47,7 @@ def _station_report(reports: Iterable[EstopReport]) -> StationEstop:
     return StationEstop(engaged=any(report.engaged for report in devices), devices=devices)
 
 
-async def _each(station: StationDep, act: Callable[[Device], Awaitable[Applied]]) -> StationEstop:
+async def _each(station: StationDep, act: Callable[[Device], Awaitable[Applied | None]]) -> StationEstop:
     """Acts on every device at once, and only then complains about those that did not answer."""
     devices = list(station.devices.values())
     outcomes = await asyncio.gather(*map(act, devices), return_exceptions=True)
@@ -110,7 +110,10 @@ async def get_estop(device: DeviceDep) -> EstopReport:
     responses=_ERRORS,
 )
 async def engage_estop(device: DeviceDep) -> EstopReport:
-    """Latches the emergency stop: outputs are zero at the next tick. Never needs a lease or a body."""
+    """Latches the emergency stop: outputs are zero at the next tick. Never needs a lease or a body.
+
+    A device without a servo drives nothing; `applied` is null then, and its next servo starts latched.
+    """
     return _report(device, await device.engage_estop())
 
 
