@@ -48,6 +48,9 @@ class ByteTransport(Protocol):
     def write(self, data: bytes) -> int:
         """Writes without waiting and returns how many bytes were taken. Raises `DeviceLost`."""
 
+    def flush(self) -> None:
+        """Drops whatever has arrived and was not read. Raises `DeviceLost`."""
+
     def close(self) -> None:
         """Closes the link at once, whether or not the device still takes bytes; closing twice is fine."""
 
@@ -102,6 +105,13 @@ class SerialTransport:
             return 0
         except OSError as error:
             raise DeviceLost(_reason(self._port, error)) from error
+
+    def flush(self) -> None:
+        """See `ByteTransport.flush`; also what the kernel has not handed over yet."""
+        try:
+            termios.tcflush(self._fd, termios.TCIFLUSH)
+        except (termios.error, OSError) as error:
+            raise DeviceLost(f"{self._port}: {error}") from error
 
     def close(self) -> None:
         """See `ByteTransport.close`."""

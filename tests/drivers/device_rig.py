@@ -80,6 +80,10 @@ class VirtualCable:
     def close(self) -> None:
         self._open = False
 
+    def flush(self) -> None:
+        self._require()
+        self._to_host.pull(self.now_s)
+
     def write(self, data: bytes) -> int:
         self._require()
         accepted = data[: self.taken]

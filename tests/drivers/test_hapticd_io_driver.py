@@ -213,6 +213,20 @@ def test_only_the_newest_state_counts_when_several_wait() -> None:
     assert rig.seen()["counts"][0] == 7
 
 
+def test_after_a_long_pause_the_first_observation_is_not_an_old_one() -> None:
+    """A port keeps no more than 4096 bytes for a reader: after a pause those are the oldest."""
+    rig = Rig("hhd", "device").connect()
+    rig.tick(OFF, 2)
+    rig.host_dies(100)
+    rig.plant.counts = (7, 0, 0)
+    rig.host_dies(1)
+    outcomes = [rig.tick() for _ in range(3)]
+    assert FRESH in outcomes
+    assert rig.seen()["counts"][0] == 7
+    assert rig.driver.statistics()["lost"] >= 95
+    assert rig.driver.statistics()["malformed"] == 0
+
+
 def test_an_exchange_never_waits_longer_than_it_may(live: Rig) -> None:
     live.silence()
     for _ in range(20):

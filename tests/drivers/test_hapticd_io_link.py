@@ -72,3 +72,18 @@ def test_the_first_frame_says_that_counting_starts_and_the_counter_wraps() -> No
     assert flags == [FLAG_RESYNC, 0]
     sender._seq = 0xFFFF
     assert receiver.receive(sender.send(Kind.LOG))[0][1:3] == (0, 0)
+
+
+def test_after_a_gap_in_the_bytes_the_next_whole_frame_is_read() -> None:
+    sender, receiver = Link(), Link()
+    first, second, third = (sender.send(Kind.LOG, text) for text in (b"one", b"two", b"three"))
+    assert receiver.receive(first[:7]) == []
+    receiver.skip_rest()
+    assert [frame.payload for frame in receiver.receive(second[3:] + third)] == [b"three"]
+    assert receiver.counters.malformed == receiver.counters.checksum_errors == 0
+
+
+def test_a_whole_frame_right_after_a_gap_is_not_lost() -> None:
+    sender, receiver = Link(), Link()
+    receiver.skip_rest()
+    assert len(receiver.receive(sender.send(Kind.LOG, b"one"))) == 1

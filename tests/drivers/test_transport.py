@@ -67,6 +67,17 @@ def test_what_arrived_before_opening_is_not_read(terminal: PseudoTerminal) -> No
     port.close()
 
 
+def test_flushing_drops_what_has_arrived_however_much_it_is(
+    terminal: PseudoTerminal, port: SerialTransport
+) -> None:
+    for _ in range(10):
+        terminal.write(bytes(1000))
+    time.sleep(0.05)
+    port.flush()
+    terminal.write(b"new")
+    assert port.read(LONG_S) == b"new"
+
+
 def test_a_hung_up_port_is_lost_for_reading_and_writing(
     terminal: PseudoTerminal, port: SerialTransport
 ) -> None:
@@ -75,6 +86,8 @@ def test_a_hung_up_port_is_lost_for_reading_and_writing(
         port.read(LONG_S)
     with pytest.raises(DeviceLost):
         port.write(b"x")
+    with pytest.raises(DeviceLost):
+        port.flush()
 
 
 def test_a_board_that_does_not_read_stops_neither_writing_nor_closing(port: SerialTransport) -> None:

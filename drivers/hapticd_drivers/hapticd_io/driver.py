@@ -36,6 +36,9 @@ DOWN: Final = 2
 BACKLOG_BYTES: Final = 256
 """A read of so much means that frames have piled up, and that there may be more of them."""
 
+PAUSE_S: Final = 0.02
+"""Without an exchange for this long whatever has arrived is dropped as old."""
+
 REHEARSALS: Final = 20
 """Exchanges before a connection is handed over."""
 
@@ -76,7 +79,7 @@ class HapticdIo:
         self._clearing = False
         self._blocked = True
         self._withdrawn_seq: int | None = self._link.seq
-        self._alive_at = self._clock()
+        self._alive_at = self._called_at = self._clock()
 
     def connect(self) -> None:
         """Opens the port, makes sure of the board, and configures it.
@@ -119,8 +122,12 @@ class HapticdIo:
         Returns:
             `FRESH`, `MISSING` (nothing new; `observation` is untouched) or `DOWN` (connect anew).
         """
-        deadline = self._clock() + self._options.reply_timeout_s
+        now = self._clock()
+        deadline = now + self._options.reply_timeout_s
         try:
+            if now - self._called_at > PAUSE_S:
+                self._skip_backlog()
+            self._called_at = now
             self._send(command)
             frame = self._newest(deadline)
         except DeviceLost:
@@ -150,6 +157,11 @@ class HapticdIo:
             "late": self._late,
             "missing": self._missing,
         }
+
+    def _skip_backlog(self) -> None:
+        """After a pause more frames have piled up than one tick can read: begin with the next one."""
+        self._transport.flush()
+        self._link.skip_rest()
 
     def _send(self, command: memoryview) -> None:
         enable, raw = self._wiring.to_outputs(command)

@@ -39,7 +39,7 @@ class Link:
     _seq: int = 0
     _ack: int = 0
     _partial: bytes = b""
-    _overlong: bool = False
+    _cut: bool = False
 
     def send(self, kind: Kind, payload: bytes = b"") -> bytes:
         """The next frame of this end, stuffed; the first one says that the counter starts."""
@@ -53,26 +53,31 @@ class Link:
         """Counter of the last frame sent."""
         return self._seq
 
+    def skip_rest(self) -> None:
+        """Bytes were dropped: up to the next delimiter may come the rest of a frame, which is no error."""
+        self._partial, self._cut = b"", True
+
     def receive(self, chunk: bytes) -> list[Frame]:
         """The good frames that `chunk` completes; everything else is counted and dropped."""
         *stuffed, self._partial = (self._partial + chunk).split(cobs.DELIMITER)
-        if self._overlong and stuffed:
-            del stuffed[0]
-            self._overlong = False
-        frames = [frame for part in stuffed if part and (frame := self._decode(part))]
+        frames = []
+        for part in stuffed:
+            if part and (frame := self._decode(part)):
+                frames.append(frame)
+            self._cut = False
         if len(self._partial) > STUFFED_MAX_BYTES:
-            self.counters.malformed += not self._overlong
-            self._partial, self._overlong = b"", True
+            self.counters.malformed += not self._cut
+            self.skip_rest()
         return frames
 
     def _decode(self, stuffed: bytes) -> Frame | None:
         try:
             frame = decode_frame(cobs.decode(stuffed))
         except ChecksumError:
-            self.counters.checksum_errors += 1
+            self.counters.checksum_errors += not self._cut
             return None
         except (FrameError, cobs.StuffingError):
-            self.counters.malformed += 1
+            self.counters.malformed += not self._cut
             return None
         self.counters.frames += 1
         self._ack = frame.seq
