@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
 from typing import Any
 
 from fastapi import APIRouter, FastAPI, Request
@@ -11,7 +10,7 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel, Field
 from starlette.responses import JSONResponse
 
-from hapticd_api.problem_response import MEDIA_TYPE
+from hapticd_api.problem_response import MEDIA_TYPE, problem_answers
 
 _TAGS = {
     "devices": "The configured devices and their numbers.",
@@ -92,14 +91,22 @@ def _finished(app: FastAPI) -> dict[str, Any]:
     schemas["ProblemDocument"] = definition
     schemas.pop("HTTPValidationError", None)
     schemas.pop("ValidationError", None)
-    for operation in _operations(document):
-        _replace_validation_error(operation)
+    for path in document["paths"].values():
+        for verb, operation in path.items():
+            _replace_validation_error(operation)
+            _add_general_answers(verb, operation)
     return document
 
 
-def _operations(document: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    for path in document["paths"].values():
-        yield from path.values()
+def _add_general_answers(verb: str, operation: dict[str, Any]) -> None:
+    """What the middleware may answer to any request of this kind."""
+    slugs = ["host-not-allowed"]
+    if verb != "get":
+        slugs += ["origin-not-allowed", "body-too-large", "unsupported-media-type"]
+    if "requestBody" in operation:
+        slugs.append("malformed-json")
+    for status, answer in problem_answers(*slugs).items():
+        operation["responses"].setdefault(str(status), answer)
 
 
 def _replace_validation_error(operation: dict[str, Any]) -> None:
