@@ -5,6 +5,7 @@ import { Scope } from "./scope.js";
 import { charts } from "./traces.js";
 
 const NS_PER_S = 1e9;
+const DROPPED_SHOWN_MS = 5000;
 
 export class Chart {
   #chart;
@@ -40,7 +41,13 @@ export class Chart {
       const tick = signals.map((name) => values[name][n]);
       this.scope.push(start_s + n / this.device.rate_hz, tick.some(holdsNull) ? [] : made(tick));
     }
-    if (dropped) this.parts.dropped.textContent = `${dropped} ticks not shown: this page is slow`;
+    if (dropped) this.#tellDropped(dropped);
+  }
+
+  #tellDropped(ticks) {
+    this.parts.dropped.textContent = `${ticks} ticks not shown: this page is slow`;
+    clearTimeout(this.forget);
+    this.forget = setTimeout(() => (this.parts.dropped.textContent = ""), DROPPED_SHOWN_MS);
   }
 
   draw() {

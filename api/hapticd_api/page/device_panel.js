@@ -4,14 +4,21 @@ import { put } from "./api.js";
 import { Chart } from "./chart.js";
 import { copyOf, element, partsOf } from "./dom.js";
 import { Drawing } from "./drawing.js";
-import { draggable, Hand } from "./hand.js";
+import { Hand } from "./hand.js";
 import { views } from "./kinematics.js";
 import { notices } from "./notices.js";
+import { answerPointer } from "./pointer.js";
 import { attempt } from "./toast.js";
-import { norm } from "./vector.js";
+import { norm, written } from "./vector.js";
 import { Walls } from "./walls.js";
 
 const STATES = ["offline", "disabled", "enabled", "paused", "fault"];
+const IDLE = {
+  offline: "",
+  disabled: "Disabled: walls give no force",
+  paused: "Paused: walls give no force",
+  fault: "Fault: walls give no force",
+};
 const SILENT_AFTER_MS = 700;
 const CONTACT_FLAG = 32;
 export const POSE_SIGNALS = [
@@ -27,8 +34,8 @@ export class DevicePanel {
     this.root = copyOf("device");
     this.parts = partsOf(this.root);
     this.root.querySelector("h2").textContent = device.id;
-    const kind = device.twin ? "simulated twin" : `on ${device.driver}`;
-    this.parts.about.textContent = `${device.model} · ${kind} · ${device.rate_hz / 1000} kHz`;
+    const kind = device.twin ? "twin" : device.driver;
+    this.kind = `${device.model} · ${kind} · ${device.rate_hz / 1000} kHz`;
     this.drawings = views(model.kinematics).map((view) => this.#drawing(view, model));
     this.walls = new Walls(device, this.parts, {
       tip: () => this.pose?.tip.slice(0, device.dof),
@@ -37,7 +44,7 @@ export class DevicePanel {
     });
     this.chart = new Chart(device, this.parts, stream);
     this.#wireButtons();
-    this.#wireHand();
+    this.#wirePointer(device.twin ? this.#hand() : null);
     stream.subscribe({ id: `${device.id}/pose`, device: device.id, signals: POSE_SIGNALS, rate_hz: 60 });
     this.show(device);
     this.walls.refresh();
@@ -61,12 +68,21 @@ export class DevicePanel {
     estop.addEventListener("click", () => attempt(() => put(`${this.path}/estop`)));
   }
 
-  #wireHand() {
-    this.parts.hand.hidden = !this.device.twin;
-    if (!this.device.twin) return;
+  #wirePointer(hand) {
+    this.parts.hand.hidden = !hand;
+    this.parts.stage.classList.toggle("movable", hand !== null);
+    for (const drawing of this.drawings) {
+      answerPointer(drawing, {
+        hand: () => hand && (hand.target ?? this.pose?.hand ?? null),
+        moveHand: (point) => hand.follow(point),
+        walls: () => this.walls.walls,
+        moveWall: (wall, point_m, done) => this.walls.move(wall, point_m, done),
+      });
+    }
+  }
+
+  #hand() {
     const hand = new Hand(this.device.id, this.device.dof);
-    this.parts.stage.classList.add("movable");
-    for (const drawing of this.drawings) draggable(drawing, hand, () => this.pose?.hand);
     this.parts.free.addEventListener("click", () => hand.tell({ type: "free" }));
     this.parts.stroke.addEventListener("click", () => {
       const { dof } = this.device;
@@ -74,6 +90,7 @@ export class DevicePanel {
       const axis = dof === 3 ? [0, 0, 1] : [0, 1];
       hand.tell({ type: "stroke", center_m, axis, amplitude_m: dof === 3 ? 0.03 : 0.06, frequency_hz: 0.5 });
     });
+    return hand;
   }
 
   /** Takes a telemetry frame of this device. */
@@ -103,6 +120,8 @@ export class DevicePanel {
     const moved = snapshot.scene_revision !== this.snapshot.scene_revision;
     this.snapshot = snapshot;
     this.parts.notices.replaceChildren(...notices(snapshot));
+    const { scheduling } = snapshot.health;
+    this.parts.about.textContent = scheduling ? `${this.kind} · ${scheduling}` : this.kind;
     this.#showState(snapshot.state);
     if (moved) this.walls.refresh();
   }
@@ -113,6 +132,7 @@ export class DevicePanel {
     const { parts } = this;
     parts.state.textContent = estop ? "E-stop" : state;
     parts.state.dataset.state = estop ? "stopped" : state;
+    parts.idle.textContent = state === "enabled" ? "" : IDLE[state];
     const running = state === "enabled" || state === "paused";
     parts.enable.textContent = running ? "Disable" : "Enable";
     parts.enable.classList.toggle("primary", !running);
@@ -157,6 +177,6 @@ export class DevicePanel {
     parts.depth.textContent = touched ? `${(depth * 1000).toFixed(2)} mm` : "–";
     parts.stiffness.textContent = `${(stiffness / 1000).toFixed(2)} N/mm`;
     parts.wall.textContent = touched ?? "nothing";
-    parts.tip.textContent = tip.slice(0, this.device.dof).map((value) => (value * 1000).toFixed(1).replace("-", "−")).join("   ");
+    parts.tip.textContent = tip.slice(0, this.device.dof).map((value) => written(value * 1000, 1)).join("   ");
   }
 }

@@ -144,7 +144,9 @@ export class Drawing {
     this.#path(head.map(([a, b]) => [x + dx + a * ux - b * uy, y + dy + a * uy + b * ux]));
     this.context.fillStyle = this.color("force");
     this.context.fill();
-    this.#text(`${size.toFixed(1)} N`, [x + dx + ux * 10 + 8, y + dy + uy * 10], "force", "left", 600);
+    const [width, height] = this.projection.size;
+    const label = [clamp(x + dx + ux * 10 + 8, 8, width - 52), clamp(y + dy + uy * 10, 30, height - 26)];
+    this.#text(`${size.toFixed(1)} N`, label, "force", "left", 600);
   }
 
   #at(x, y) {
@@ -191,6 +193,8 @@ export class Drawing {
     this.context.fillText(text, x, y);
   }
 }
+
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 /** A vector as wide as the base frame; a device with two coordinates lies in the plane z = 0. */
 export const pad = (vector) => [...vector, 0, 0].slice(0, 3);

@@ -38,20 +38,3 @@ export class Hand {
   }
 
 }
-
-/** Lets the pointer drag the hand in a drawing. `whereNow` tells the hand's position. */
-export function draggable(drawing, hand, whereNow) {
-  const canvas = drawing.canvas;
-  const move = (event) => {
-    const box = canvas.getBoundingClientRect();
-    const pixel = [event.clientX - box.left, event.clientY - box.top];
-    hand.follow(drawing.projection.toBase(pixel, hand.target ?? whereNow() ?? [0, 0, 0]));
-  };
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    move(event);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (canvas.hasPointerCapture(event.pointerId)) move(event);
-  });
-}

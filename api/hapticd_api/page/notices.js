@@ -16,6 +16,14 @@ export function notices(snapshot) {
       act: () => remove(`${path}/faults/${id}`),
     }),
   );
+  if (found.length > 1) {
+    found.push(
+      notice(`${found.length} faults`, "Cure each as it says. One may have caused the others.", {
+        text: "Acknowledge all",
+        act: () => Promise.all(snapshot.faults.map(({ id }) => remove(`${path}/faults/${id}`))),
+      }),
+    );
+  }
   if (snapshot.flags.estop) {
     found.unshift(
       notice("E-stop engaged", "All outputs are zero. Make the device safe, then acknowledge.", {

@@ -1,5 +1,7 @@
 // A strip chart of the last seconds, every tick of it.
 
+import { written } from "./vector.js";
+
 const SHOWN_S = 4;
 const PADDING = { left: 46, right: 8, top: 8, bottom: 18 };
 
@@ -106,7 +108,7 @@ export class Scope {
       context.moveTo(x, at);
       context.lineTo(x + w, at);
       context.stroke();
-      context.fillText(value.toFixed(digits), x - 6, at + 4);
+      context.fillText(written(value, digits), x - 6, at + 4);
     }
     context.textAlign = "left";
     context.fillText(`−${SHOWN_S} s`, x, y + h + 14);

@@ -3,7 +3,7 @@
 import { get, patch, put, remove } from "./api.js";
 import { copyOf, element, partsOf } from "./dom.js";
 import { attempt } from "./toast.js";
-import { dot } from "./vector.js";
+import { dot, written } from "./vector.js";
 import { newWall, WallForm } from "./wall_form.js";
 
 const EMPTY = "No walls yet. Add one, enable the device, and drag the hand into it.";
@@ -46,8 +46,22 @@ export class Walls {
     }
   }
 
+  /** Shows a wall at another place, and stores it there when `done`. */
+  async move(wall, point_m, done) {
+    const shape = { ...wall.shape, point_m };
+    this.walls = this.walls.map((other) => (other.id === wall.id ? { ...other, shape } : other));
+    this.changed();
+    if (!done) return;
+    await attempt(() => patch(this.#address(wall), { shape: { point_m } }));
+    await this.refresh();
+  }
+
+  #address({ id }) {
+    return `${this.path}/walls/${encodeURIComponent(id)}`;
+  }
+
   async #save(wall) {
-    await put(`${this.path}/walls/${encodeURIComponent(wall.id)}`, wall);
+    await put(this.#address(wall), wall);
     await this.refresh();
   }
 
@@ -61,7 +75,7 @@ export class Walls {
   #row(wall) {
     const row = copyOf("wall");
     const parts = partsOf(row);
-    const change = (part) => attempt(() => patch(`${this.path}/walls/${encodeURIComponent(wall.id)}`, part));
+    const change = (part) => attempt(() => patch(this.#address(wall), part));
     row.querySelector("strong").textContent = wall.id;
     row.querySelector(".what .quiet").textContent = placed(wall.shape);
     row.classList.toggle("off", !wall.enabled);
@@ -73,9 +87,7 @@ export class Walls {
     parts.toggle.setAttribute("aria-pressed", String(wall.enabled));
     parts.toggle.addEventListener("click", () => change({ enabled: !wall.enabled }));
     parts.edit.addEventListener("click", () => this.form.open(wall, true));
-    parts.delete.addEventListener("click", () =>
-      attempt(() => remove(`${this.path}/walls/${encodeURIComponent(wall.id)}`)),
-    );
+    parts.delete.addEventListener("click", () => attempt(() => remove(this.#address(wall))));
     this.#rows.set(wall.id, row);
     return row;
   }
@@ -91,8 +103,8 @@ function placed({ point_m, normal }) {
   const offset_mm = dot(normal, point_m) * 1000;
   const axis = normal.findIndex((value) => Math.abs(Math.abs(value) - 1) < 1e-6);
   if (axis >= 0) {
-    const name = ["x", "y", "z"][axis];
-    return `free where ${name} ${normal[axis] > 0 ? ">" : "<"} ${(normal[axis] * offset_mm).toFixed(1)} mm`;
+    const side = normal[axis] > 0 ? ">" : "<";
+    return `free where ${"xyz"[axis]} ${side} ${written(normal[axis] * offset_mm, 1)} mm`;
   }
-  return `facing (${normal.map((value) => value.toFixed(2)).join(", ")}), ${offset_mm.toFixed(1)} mm`;
+  return `facing (${normal.map((value) => written(value, 2)).join(", ")}), ${written(offset_mm, 1)} mm`;
 }
