@@ -244,6 +244,78 @@ class Simulation:
     def truth(self) -> TwinTruth: ...
 
 # ---------------------------------------------------------------------------------------------
+# safety.rs: formulas of the safety layer; shapes are (3,), or (3, 3) by rows
+# ---------------------------------------------------------------------------------------------
+
+class Thermal:
+    """Winding temperatures of a device. ValueError: not a model, or torque drives."""
+
+    def __init__(self, device_json: str, period_s: float) -> None: ...
+    def step(self, current_a: _Axes) -> tuple[list[float], list[float]]:
+        """One period; then temperatures in °C and residual resistances in Ω."""
+
+class Budget:
+    """I²t budget of motors whose loads come in A or N·m."""
+
+    def __init__(self, *, peak: _Axes, continuous: _Axes, peak_time_s: float, period_s: float) -> None: ...
+    def step(self, load: _Axes) -> tuple[list[float], list[float]]:
+        """One period; then the budget used and the largest load allowed."""
+
+class Brakes:
+    """Brake model of a device. ValueError: not a model, or no brakes."""
+
+    def __init__(self, device_json: str, period_s: float) -> None: ...
+    def step(self, asked_nm: _Axes) -> list[float]:
+        """One period; then the torques built up, without drag."""
+
+class Allocator:
+    """Motor and brake allocation of a device. ValueError: not a model, or no brakes."""
+
+    def __init__(self, device_json: str, period_s: float) -> None: ...
+    def split(
+        self,
+        mode: str,
+        *,
+        jacobian_inverse: _Rows,
+        force_n: _Axes,
+        torque_nm: _Axes,
+        qd: _Axes,
+        hand_force_n: _Axes,
+        hand_torque_nm: _Axes,
+        brake_nm: _Axes,
+    ) -> tuple[list[float], list[float], list[bool]]:
+        """Motor torques, brake torques, and which brakes are usable. ValueError: not a mode."""
+
+def bound_motor(
+    device_json: str,
+    asked_nm: _Axes,
+    *,
+    period_s: float,
+    fade: float,
+    jacobian_inverse: _Rows,
+    peak_nm: _Axes,
+    present_nm: _Axes,
+    retain: _Axes,
+    supply: _Rows | None = None,
+) -> tuple[list[float], int]:
+    """Bounded joint torque and the limits that acted; supply is k_T θ̇, V per N·m and largest V."""
+
+def bound_brake(
+    *,
+    asked_nm: float,
+    before_nm: float,
+    wanted_nm: float,
+    qd: float,
+    max_nm: float,
+    rise_nm: float,
+    omega_off: float,
+) -> float:
+    """Bounded torque of one brake, N·m."""
+
+def singularity_fade(margin: float, margin_limit: float) -> float:
+    """Factor on the outputs near a singularity."""
+
+# ---------------------------------------------------------------------------------------------
 # control.rs: pure functions of the control core; shapes are (3,), or (3, 3) by rows
 # ---------------------------------------------------------------------------------------------
 

@@ -74,7 +74,7 @@ fn to_rows(matrix: &M3) -> Rows {
     matrix.transpose().into()
 }
 
-fn device_model(device_json: &str) -> PyResult<DeviceModel> {
+pub(crate) fn device_model(device_json: &str) -> PyResult<DeviceModel> {
     serde_json::from_str(device_json).map_err(value_error)
 }
 

@@ -6,6 +6,7 @@ mod control;
 mod driver;
 mod front;
 mod parking;
+mod safety;
 mod schema;
 mod servo;
 mod twin;
@@ -14,6 +15,7 @@ mod twin;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     schema::register(module)?;
+    safety::register(module)?;
     control::register(module)?;
     twin::register(module)?;
     front::register(module)?;
