@@ -2,8 +2,11 @@
 
 use hapticd_control::linear::{M3, V3};
 
-/// Sweeps over the joints in one step; three joints with weak coupling settle in two or three.
+/// Most sweeps over the joints in one step; three joints with weak coupling settle in two or three.
 const SWEEPS: usize = 4;
+
+/// Change of an impulse, as a share of its limit, below which a sweep has settled.
+const SETTLED: f64 = 1e-9;
 
 /// Velocities after the dry-friction impulses of one step, by projected Gauss–Seidel.
 ///
@@ -19,12 +22,18 @@ pub fn rub(free: &V3, mobility: &M3, limit: &V3, impulse: &mut V3) -> V3 {
         impulse[i] = impulse[i].clamp(-limit[i], limit[i]);
     }
     let mut velocity = free + mobility * *impulse;
+    let inertia = mobility.diagonal().map(f64::recip);
     for _ in 0..SWEEPS {
+        let mut settled = true;
         for i in 0..3 {
-            let wanted = (impulse[i] - velocity[i] / mobility[(i, i)]).clamp(-limit[i], limit[i]);
+            let wanted = (impulse[i] - velocity[i] * inertia[i]).clamp(-limit[i], limit[i]);
             let change = wanted - impulse[i];
             impulse[i] = wanted;
             velocity += mobility.column(i) * change;
+            settled &= change.abs() <= SETTLED * limit[i];
+        }
+        if settled {
+            break;
         }
     }
     velocity

@@ -6,12 +6,16 @@ use hapticd_control::linear::{M3, V3};
 
 /// Rigid-body dynamics M(q) q̈ + bias(q, q̇) = τ.
 pub trait Linkage {
-    /// Mass matrix M, kg·m². An unused joint has a mass of its own and no coupling.
-    fn mass(&self, q: &V3) -> M3;
-    /// Coriolis, centrifugal and gravity torques C q̇ + G, N·m.
-    fn bias(&self, q: &V3, qd: &V3) -> V3;
+    /// Mass matrix M, kg·m², and Coriolis, centrifugal and gravity torques C q̇ + G, N·m.
+    /// An unused joint has a mass of its own and no coupling.
+    fn dynamics(&self, q: &V3, qd: &V3) -> (M3, V3);
     /// Potential energy, J.
     fn potential_j(&self, q: &V3) -> f64;
+
+    /// Mass matrix M, kg·m².
+    fn mass(&self, q: &V3) -> M3 {
+        self.dynamics(q, &V3::zeros()).0
+    }
 }
 
 /// PHANTOM: Cavusoglu's dynamics as in mahilab/Phantom, with the rotors added.
@@ -82,28 +86,25 @@ impl PhantomLinkage {
 }
 
 impl Linkage for PhantomLinkage {
-    fn mass(&self, q: &V3) -> M3 {
-        let (s3, c2) = (q[2].sin(), q[1].cos());
+    fn dynamics(&self, q: &V3, qd: &V3) -> (M3, V3) {
+        let (s2, c2) = q[1].sin_cos();
+        let (s3, c3) = q[2].sin_cos();
         // cos 2a = 2 cos² a − 1 = 1 − 2 sin² a
         let m11 = self.m11
             + self.m11_q2 * (2.0 * c2 * c2 - 1.0)
             + self.m11_q3 * (1.0 - 2.0 * s3 * s3)
             + self.cross_base * c2 * s3;
-        let m23 = self.cross * (q[2] - q[1]).sin();
-        M3::new(m11, 0.0, 0.0, 0.0, self.m22, m23, 0.0, m23, self.m33)
-    }
-
-    fn bias(&self, q: &V3, qd: &V3) -> V3 {
-        let (s2, c2) = q[1].sin_cos();
-        let (s3, c3) = q[2].sin_cos();
         let m11_by_q2 = -4.0 * self.m11_q2 * s2 * c2 - self.cross_base * s2 * s3;
         let m11_by_q3 = -4.0 * self.m11_q3 * s3 * c3 + self.cross_base * c2 * c3;
+        let m23 = self.cross * (s3 * c2 - c3 * s2);
         let m23_by_q3 = self.cross * (c3 * c2 + s3 * s2);
-        V3::new(
+        let mass = M3::new(m11, 0.0, 0.0, 0.0, self.m22, m23, 0.0, m23, self.m33);
+        let bias = V3::new(
             (m11_by_q2 * qd[1] + m11_by_q3 * qd[2]) * qd[0],
             m23_by_q3 * qd[2] * qd[2] - 0.5 * m11_by_q2 * qd[0] * qd[0] + self.g2 * c2,
             -m23_by_q3 * qd[1] * qd[1] - 0.5 * m11_by_q3 * qd[0] * qd[0] + self.g3 * s3,
-        )
+        );
+        (mass, bias)
     }
 
     fn potential_j(&self, q: &V3) -> f64 {
@@ -137,24 +138,15 @@ impl RhombusLinkage {
 }
 
 impl Linkage for RhombusLinkage {
-    fn mass(&self, q: &V3) -> M3 {
-        let m12 = self.h * (q[1] - q[0]).cos();
-        M3::new(
-            self.diagonal,
-            m12,
-            0.0,
-            m12,
-            self.diagonal,
-            0.0,
-            0.0,
-            0.0,
-            1.0,
+    fn dynamics(&self, q: &V3, qd: &V3) -> (M3, V3) {
+        let (sin, cos) = (q[1] - q[0]).sin_cos();
+        let (m12, swing) = (self.h * cos, self.h * sin);
+        let m11 = self.diagonal;
+        let mass = M3::new(m11, m12, 0.0, m12, m11, 0.0, 0.0, 0.0, 1.0);
+        (
+            mass,
+            V3::new(-swing * qd[1] * qd[1], swing * qd[0] * qd[0], 0.0),
         )
-    }
-
-    fn bias(&self, q: &V3, qd: &V3) -> V3 {
-        let swing = self.h * (q[1] - q[0]).sin();
-        V3::new(-swing * qd[1] * qd[1], swing * qd[0] * qd[0], 0.0)
     }
 
     fn potential_j(&self, _q: &V3) -> f64 {

@@ -71,13 +71,10 @@ impl<L: Linkage> Mechanics<L> {
     ///
     /// Returns the torque the brakes gave, N·m.
     pub fn advance(&mut self, torque: &V3, brake: &V3, h: f64) -> V3 {
-        let mobility = self
-            .linkage
-            .mass(&self.q)
-            .try_inverse()
-            .unwrap_or_else(M3::zeros);
+        let (mass, bias) = self.linkage.dynamics(&self.q, &self.qd);
+        let mobility = mass.try_inverse().unwrap_or_else(M3::zeros);
         let smooth = torque + self.stops.torque(&self.q, &self.qd)
-            - self.linkage.bias(&self.q, &self.qd)
+            - bias
             - self.viscous.component_mul(&self.qd);
         let free = self.qd + mobility * smooth * h;
         let dry = self.coulomb + brake;

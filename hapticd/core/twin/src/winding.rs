@@ -84,8 +84,8 @@ impl Winding {
 
     /// Current after `h` of L di/dt = e − r i, trapezoidal.
     fn settle(&self, e: f64, r: f64, h: f64) -> f64 {
-        let half = 0.5 * h * r / self.l;
-        (self.current_a * (1.0 - half) + h * e / self.l) / (1.0 + half)
+        let (l, drop) = (self.l, 0.5 * h * r);
+        (self.current_a * (l - drop) + h * e) / (l + drop)
     }
 
     /// Motor torque now, N·m.

@@ -146,10 +146,10 @@ proptest! {
     ) {
         let (q, qd) = (V3::from(q), V3::from(qd));
         let phantom = phantom_linkage();
-        prop_assert!((phantom.bias(&q, &qd) - bias_from_energy(&phantom, &q, &qd)).norm() < 1e-8);
+        prop_assert!((phantom.dynamics(&q, &qd).1 - bias_from_energy(&phantom, &q, &qd)).norm() < 1e-8);
         let rhombus = rhombus_linkage();
         let flat = V3::new(qd[0], qd[1], 0.0);
-        prop_assert!((rhombus.bias(&q, &flat) - bias_from_energy(&rhombus, &q, &flat)).norm() < 1e-7);
+        prop_assert!((rhombus.dynamics(&q, &flat).1 - bias_from_energy(&rhombus, &q, &flat)).norm() < 1e-7);
     }
 
     #[test]
@@ -192,7 +192,7 @@ fn the_phantom_1_0_weighs_little_and_is_balanced() {
         "{apparent}"
     );
     for (q2, q3) in [(0.0, 0.0), (0.9, 0.9), (1.5, 0.5)] {
-        let gravity = linkage.bias(&V3::new(0.0, q2, q3), &V3::zeros());
+        let gravity = linkage.dynamics(&V3::new(0.0, q2, q3), &V3::zeros()).1;
         // 5 mN at 140 mm: far below the friction.
         assert!(gravity.norm() < 7e-4, "{gravity}");
     }
