@@ -58,7 +58,9 @@ impl ServoConfig {
     /// # Errors
     /// What is wrong with it, naming the key.
     pub fn parse(json: &str) -> Result<Self, String> {
-        let config: Self = serde_json::from_str(json).map_err(|error| error.to_string())?;
+        let mut document = serde_json::Deserializer::from_str(json);
+        let config: Self = serde_path_to_error::deserialize(&mut document)
+            .map_err(|error| format!("{}: {}", error.path(), error.inner()))?;
         if !(RATE_MIN_HZ..=RATE_MAX_HZ).contains(&config.rate_hz) {
             return Err(format!(
                 "rate_hz is {}, it must be {RATE_MIN_HZ} to {RATE_MAX_HZ}",

@@ -90,7 +90,8 @@ pub fn parse(json: &str) -> Result<(Request, Option<u64>), String> {
         None | Some(Value::Null) => None,
         Some(epoch) => Some(epoch.as_u64().ok_or("epoch is no unsigned integer")?),
     };
-    let document: Document = serde_json::from_value(value).map_err(|error| error.to_string())?;
+    let document: Document = serde_path_to_error::deserialize(value)
+        .map_err(|error| format!("{}: {}", error.path(), error.inner()))?;
     let request = document.request()?;
     if !request.is_valid() {
         return Err(
