@@ -40,10 +40,12 @@ run: $(VENV)/.installed ## start the daemon on twins of both devices; ARGS="--co
 test: lint test-core test-python ## everything that continuous integration runs
 
 .PHONY: test-core
-test-core: ## tests of the Rust core
+test-core: ## tests of the Rust core, the model check of its shared memory included
 	$(need_cargo)
 	$(need_linker)
 	$(CARGO) test --quiet --locked $(MANIFEST) --workspace
+	RUSTFLAGS='--cfg loom' $(CARGO) test --quiet --locked $(MANIFEST) --target-dir $(CORE)/target/loom \
+		--package hapticd-servo --test interleavings
 
 .PHONY: test-python
 test-python: $(VENV)/.installed ## tests of everything else; ARGS="-k wall" for some of them

@@ -56,7 +56,7 @@ def estop(
         return
     for report in reports:
         text = state_text(report["state"], estop=report["engaged"])
-        console.print(f"{escape(report['device_id'])} is {text}")
+        console.print(f"{escape(report['device_id'])}: {text}")
 
 
 def acknowledge(

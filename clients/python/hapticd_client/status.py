@@ -10,6 +10,9 @@ from rich.text import Text
 from hapticd_client.documents import Device
 from hapticd_client.terminal import millimetres, norm_text, state_text
 
+FAULT_LATCHED = "fault-latched"
+"""The interlock that says there are faults, which are listed themselves."""
+
 HEADINGS = ("device", "state", "driver", "tip / mm", "force / N", "walls", "touches")
 
 
@@ -49,5 +52,5 @@ def complaints(device: Device) -> list[str]:
     return lines + [
         f"[yellow]{name}: {escape(interlock['id'])}[/] {escape(interlock['why'])} {escape(interlock['cure'])}"
         for interlock in device["interlocks"]
-        if not interlock["ok"]
+        if not interlock["ok"] and interlock["id"] != FAULT_LATCHED
     ]
