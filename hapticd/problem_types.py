@@ -104,6 +104,14 @@ _TYPES = (
         "GET the document: its ETag is the present revision.",
         "Read it again, repeat the edit on what you read, and send it with the new ETag.",
     ),
+    ProblemType(
+        "idempotency-key-reused",
+        422,
+        "The idempotency key belongs to another request",
+        "An Idempotency-Key marks one request, so that it can be repeated; this one marked another body.",
+        "Compare the request with the one that was first sent with this key.",
+        "Make a new key for each new request.",
+    ),
     # Things that are not there
     ProblemType(
         "device-not-found",

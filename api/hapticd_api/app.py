@@ -11,6 +11,7 @@ from hapticd_api import docs_page, errors, openapi, page_files
 from hapticd_api.body import BodyGuard
 from hapticd_api.device_metrics import DeviceMetrics
 from hapticd_api.gate import Gate
+from hapticd_api.idempotency import Idempotency
 from hapticd_api.release import release
 from hapticd_api.request_metrics import RequestMetrics
 from hapticd_api.response_headers import ResponseHeaders
@@ -62,10 +63,11 @@ def create_app(station: Station) -> FastAPI:
 
 
 def _middleware(station: Station, registry: CollectorRegistry) -> list[Middleware]:
-    """Outermost first: everything is counted, then who asks is checked, then what is sent."""
+    """Outermost first: all is counted, then who asks is checked, then what is sent, then if it is new."""
     return [
         Middleware(ResponseHeaders),
         Middleware(RequestMetrics, registry=registry),
         Middleware(Gate, hosts=frozenset({station.config.api.host})),
         Middleware(BodyGuard),
+        Middleware(Idempotency),
     ]

@@ -37,6 +37,15 @@ _DESCRIPTION = """Real-time haptic devices over HTTP. SI units, the unit in the 
 """
 
 
+_IDEMPOTENCY_KEY = {
+    "name": "Idempotency-Key",
+    "in": "header",
+    "required": False,
+    "schema": {"type": "string"},
+    "description": "Marks this request: sent again with the same key, it is carried out once",
+}
+
+
 class FieldError(BaseModel):
     """One offending field of a refused document."""
 
@@ -105,6 +114,9 @@ def _add_general_answers(verb: str, operation: dict[str, Any]) -> None:
         slugs += ["origin-not-allowed", "body-too-large", "unsupported-media-type"]
     if "requestBody" in operation:
         slugs.append("malformed-json")
+    if verb == "post":
+        slugs.append("idempotency-key-reused")
+        operation.setdefault("parameters", []).append(_IDEMPOTENCY_KEY)
     for status, answer in problem_answers(*slugs).items():
         operation["responses"].setdefault(str(status), answer)
 

@@ -92,7 +92,9 @@ async def test_estop_latches_until_it_is_acknowledged(http: httpx.AsyncClient) -
     assert (await http.get("/api/v1/devices/hhd/estop")).json()["engaged"] is False
 
 
-async def test_estop_of_the_station_reaches_every_device_and_waits_for_one_without_a_servo(http: httpx.AsyncClient) -> None:
+async def test_estop_of_the_station_reaches_every_device_and_waits_for_one_without_a_servo(
+    http: httpx.AsyncClient,
+) -> None:
     report = (await http.put("/api/v1/estop")).json()
     assert {entry["device_id"]: entry["engaged"] for entry in report["devices"]} == {
         "phantom": True,

@@ -139,7 +139,7 @@ export class DevicePanel {
     parts.enable.disabled = state === "offline" || state === "fault" || estop;
     parts.pause.textContent = state === "paused" ? "Resume" : "Pause";
     parts.pause.disabled = !running;
-    parts.estop.disabled = state === "offline" || estop;
+    parts.estop.disabled = estop;
   }
 
   /** Draws what is new; says so when nothing is. */
