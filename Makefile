@@ -84,10 +84,10 @@ bench: $(VENV)/.installed ## figures: tick, twins, both loops under load; ARGS="
 	@$(BIN)/python -m tests.bench $(ARGS)
 
 .PHONY: mutants
-mutants: ## mutation tests of the bounding layer; takes long
+mutants: ## mutation tests of the safety layer, which take long; ARGS="--file bound.rs" for one file
 	$(need_cargo)
 	$(need_mutants)
-	$(CARGO) mutants $(MANIFEST)
+	$(CARGO) mutants $(MANIFEST) --package hapticd-control $(ARGS)
 
 .PHONY: lock
 lock: $(VENV)/.locked ## choose versions anew and pin them with their hashes
