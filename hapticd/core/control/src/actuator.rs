@@ -62,6 +62,8 @@ pub struct Motors {
     period_s: f64,
     budget: Budget,
     thermal: Option<Thermal>,
+    residual_ohm: V3,
+    retain: V3,
     torque_nm: V3,
     current_a: V3,
 }
@@ -74,14 +76,18 @@ impl Motors {
             DriveModel::Spring(drive) => Some(Thermal::new(drive, period_s)),
             DriveModel::Torque(_) => None,
         };
-        Self {
+        let mut motors = Self {
             drive: *drive,
             period_s,
             budget: Budget::new(rating(drive), period_s),
             thermal,
+            residual_ohm: V3::zeros(),
+            retain: V3::zeros(),
             torque_nm: V3::zeros(),
             current_a: V3::zeros(),
-        }
+        };
+        motors.follow_temperature();
+        motors
     }
 
     /// One period in which `command` was in force and the joints moved at `qd`, rad/s. `driven`
@@ -91,7 +97,7 @@ impl Motors {
             settle(
                 &self.torque_nm,
                 &self.static_torque_nm(command, qd),
-                &self.retention(),
+                &self.retain,
             )
         } else {
             V3::zeros()
@@ -103,6 +109,17 @@ impl Motors {
         } else {
             self.budget.step(&self.torque_nm);
         }
+        self.follow_temperature();
+    }
+
+    fn follow_temperature(&mut self) {
+        if let Some(thermal) = &self.thermal {
+            self.residual_ohm = thermal.residual_ohm();
+        }
+        self.retain = match &self.drive {
+            DriveModel::Spring(drive) => spring_retention(drive, &self.residual_ohm, self.period_s),
+            DriveModel::Torque(drive) => torque_retention(drive, self.period_s),
+        };
     }
 
     /// Joint torque the motors give, N·m, by the model.
@@ -127,8 +144,7 @@ impl Motors {
     /// Residual resistances dR, Ω; zero where the drive takes torque.
     #[must_use]
     pub fn residual_ohm(&self) -> V3 {
-        self.thermal
-            .map_or_else(V3::zeros, |thermal| thermal.residual_ohm())
+        self.residual_ohm
     }
 
     /// The I²t budget.
@@ -156,13 +172,8 @@ impl Motors {
 
     /// Share of the present torque that is left after one period.
     #[must_use]
-    pub fn retention(&self) -> V3 {
-        match &self.drive {
-            DriveModel::Spring(drive) => {
-                spring_retention(drive, &self.residual_ohm(), self.period_s)
-            }
-            DriveModel::Torque(drive) => torque_retention(drive, self.period_s),
-        }
+    pub fn retain(&self) -> V3 {
+        self.retain
     }
 
     /// How torque becomes volts with the joints at `qd`, rad/s. `None` where the drive takes
@@ -172,7 +183,7 @@ impl Motors {
         match &self.drive {
             DriveModel::Spring(drive) => Some(Supply {
                 emf_v: back_emf_v(drive, qd),
-                v_per_nm: invert_axes(&torque_per_volt(drive, &self.residual_ohm())),
+                v_per_nm: invert_axes(&torque_per_volt(drive, &self.residual_ohm)),
                 max_v: drive.voltage_max_v.into(),
             }),
             DriveModel::Torque(_) => None,
@@ -184,7 +195,7 @@ impl Motors {
         match &self.drive {
             DriveModel::Spring(drive) => {
                 let across_dr_v = V3::from(command.motor_v) - back_emf_v(drive, qd);
-                torque_per_volt(drive, &self.residual_ohm()).component_mul(&across_dr_v)
+                torque_per_volt(drive, &self.residual_ohm).component_mul(&across_dr_v)
             }
             DriveModel::Torque(_) => command.motor_torque_nm.into(),
         }

@@ -6,6 +6,7 @@ pub mod actuator;
 pub mod allocate;
 pub mod bound;
 pub mod brake;
+pub mod braking;
 pub mod budget;
 pub mod check;
 pub mod contact;

@@ -23,17 +23,12 @@ impl OutputWatch {
 
     /// Judges the status bits of a new observation. `asked` is the `enable` of the command it
     /// answers. What a board latched while nothing was asked of it is its driver's to clear; it
-    /// counts once outputs were live or should have been.
+    /// counts once outputs are live or should be. Until then they may come and go: a frame that
+    /// was on its way when they were asked for anew still tells of the last time.
     pub fn judge(&mut self, bits: u64, asked: bool, dt_s: f64) -> FaultSet {
-        let live = asked && bits & status::OUTPUTS_LIVE != 0;
-        let died = asked && self.live && !live;
-        self.asked_s = if asked && !live {
-            self.asked_s + dt_s
-        } else {
-            0.0
-        };
-        self.live = live;
-        if died || live || self.asked_s > START_UP_S {
+        self.live = asked && bits & status::OUTPUTS_LIVE != 0;
+        self.asked_s = if asked { self.asked_s + dt_s } else { 0.0 };
+        if self.live || self.asked_s > START_UP_S {
             self.blame(bits)
         } else {
             FaultSet::default()

@@ -1,28 +1,19 @@
 //! The output stage: from the demand of the scene to a bounded command.
 
 use crate::actuator::Motors;
-use crate::allocate::{Allocator, Load, Split};
-use crate::bound::{
-    bound_brake, bound_motor, singularity_fade, tip_share, Bounded, Bounds, BrakeAsk,
-};
+use crate::allocate::Split;
+use crate::bound::{bound_motor, singularity_fade, tip_share, Bounded, Bounds};
 use crate::brake::Brakes;
+use crate::braking::Braking;
 use crate::couple::JointDemand;
 use crate::estimate::JointState;
 use crate::gain::Gain;
 use crate::io::Command;
 use crate::linear::V3;
-use crate::model::{BrakeModel, DeviceModel, LimitModel};
+use crate::model::{DeviceModel, LimitModel};
 use crate::record::limit;
 use crate::scene::Allocation;
 use crate::state::Output;
-
-/// Brakes, and the logic that shares torque with them.
-#[derive(Clone, Debug)]
-struct Braking {
-    model: BrakeModel,
-    brakes: Brakes,
-    allocator: Allocator,
-}
 
 /// What is to be put out, and on what.
 #[derive(Clone, Copy, Debug)]
@@ -72,11 +63,9 @@ impl Stage {
         Self {
             limits: model.limits,
             period_s,
-            braking: model.brakes.map(|model| Braking {
-                model,
-                brakes: Brakes::new(&model, period_s),
-                allocator: Allocator::new(&model, period_s),
-            }),
+            braking: model
+                .brakes
+                .map(|brakes| Braking::new(&brakes, &model.limits, period_s)),
             motors: Motors::new(&model.drive, period_s),
             gain: Gain::default(),
             sent: Sent::default(),
@@ -92,7 +81,7 @@ impl Stage {
     /// The brakes, as modelled.
     #[must_use]
     pub fn brakes(&self) -> Option<&Brakes> {
-        self.braking.as_ref().map(|braking| &braking.brakes)
+        self.braking.as_ref().map(Braking::brakes)
     }
 
     /// Ramp and fade factor.
@@ -114,7 +103,7 @@ impl Stage {
         let driven = command.enable && live;
         self.motors.step(command, qd, driven, measured_a);
         if let Some(braking) = &mut self.braking {
-            braking.brakes.step(&command.brake_torque_nm.into());
+            braking.step(&command.brake_torque_nm.into());
         }
     }
 
@@ -160,8 +149,7 @@ impl Stage {
 
     /// Whether brakes keep their torque when outputs are withdrawn.
     fn holds_brakes(&self) -> bool {
-        let braking = self.braking.as_ref();
-        braking.is_some_and(|braking| !braking.model.release_on_stop)
+        self.braking.as_ref().is_some_and(Braking::holds_on_stop)
     }
 
     fn bounded(&mut self, output: Output, wanted: &Wanted<'_>) -> Sent {
@@ -203,23 +191,13 @@ impl Stage {
     }
 
     fn split(&mut self, wanted: &Wanted<'_>, share: f64) -> Split {
-        let torque_nm = share * wanted.demand.torque_nm;
-        let Some(braking) = &mut self.braking else {
-            return Split {
-                motor_nm: torque_nm,
+        match &mut self.braking {
+            Some(braking) => braking.split(wanted, share),
+            None => Split {
+                motor_nm: share * wanted.demand.torque_nm,
                 ..Split::default()
-            };
-        };
-        let load = Load {
-            torque_nm,
-            force_n: share * wanted.demand.force_n,
-            force_per_torque: wanted.pose.jacobian_inverse.transpose(),
-            qd: wanted.pose.qd,
-            hand_torque_nm: wanted.pose.jacobian.tr_mul(&wanted.hand_force_n),
-            hand_force_n: wanted.hand_force_n,
-            brake_nm: braking.brakes.torque_nm(),
-        };
-        braking.allocator.split(wanted.allocation, &load)
+            },
+        }
     }
 
     /// The last outputs once more.
@@ -248,34 +226,18 @@ impl Stage {
             jacobian_inverse: &pose.jacobian_inverse,
             peak_nm: self.motors.limit_nm(),
             present_nm: self.motors.torque_nm(),
-            retain: self.motors.retention(),
+            retain: self.motors.retain(),
             supply: self.motors.supply(&pose.qd),
         }
     }
 
     /// Brake torques, N·m, and the limits that acted on them.
     fn bound_brakes(&self, split: &Split, fade: f64, wanted: &Wanted<'_>) -> (V3, u64) {
-        let Some(braking) = &self.braking else {
-            return (V3::zeros(), 0);
-        };
-        let mut acted = 0;
-        let brake_nm = V3::from_fn(|i, _| {
-            let ask = BrakeAsk {
-                asked_nm: fade * split.brake_nm[i],
-                before_nm: self.sent.command.brake_torque_nm[i],
-                wanted_nm: wanted.demand.torque_nm[i],
-                qd: wanted.pose.qd[i],
-                max_nm: braking.model.torque_max_nm[i],
-                rise_nm: self.limits.brake_slew_nm_per_s * self.period_s,
-                omega_off: braking.model.omega_off_rad_per_s,
-            };
-            let bounded_nm = bound_brake(&ask);
-            if bounded_nm != ask.asked_nm {
-                acted = limit::BRAKE;
-            }
-            bounded_nm
-        });
-        (brake_nm, acted)
+        let before_nm = self.sent.command.brake_torque_nm.into();
+        match &self.braking {
+            Some(braking) => braking.bound(&(fade * split.brake_nm), &before_nm, wanted),
+            None => (V3::zeros(), 0),
+        }
     }
 
     fn command(&self, motor: &Bounded, brake_nm: &V3, pose: &JointState) -> Command {

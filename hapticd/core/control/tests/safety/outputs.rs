@@ -7,11 +7,18 @@ use hapticd_control::outputs::OutputWatch;
 const DT_S: f64 = 1e-3;
 const NONE: FaultSet = FaultSet::from_bits(0);
 
-fn live() -> OutputWatch {
+/// A watch over outputs that have been live for `ticks`.
+fn live_for(ticks: usize) -> OutputWatch {
     let mut watch = OutputWatch::default();
-    assert_eq!(watch.judge(OUTPUTS_LIVE, true, DT_S), NONE);
-    assert!(watch.live());
+    for _ in 0..ticks {
+        assert_eq!(watch.judge(OUTPUTS_LIVE, true, DT_S), NONE);
+        assert!(watch.live());
+    }
     watch
+}
+
+fn live() -> OutputWatch {
+    live_for(300)
 }
 
 #[test]
@@ -61,6 +68,16 @@ fn outputs_that_die_are_a_fault_at_once() {
 }
 
 #[test]
+fn frame_from_before_the_asking_does_not_make_the_start_up_a_fault() {
+    let mut watch = live_for(2);
+    for _ in 0..200 {
+        assert_eq!(watch.judge(0, true, DT_S), NONE);
+        assert!(!watch.live());
+    }
+    assert_eq!(watch.judge(OUTPUTS_LIVE, true, DT_S), NONE);
+}
+
+#[test]
 fn outputs_that_were_withdrawn_may_go_off() {
     let mut watch = live();
     assert_eq!(watch.judge(0, false, DT_S), NONE);
@@ -74,6 +91,8 @@ fn bits_that_tell_more_are_blamed_instead() {
         (BOARD_WATCHDOG, Fault::BoardWatchdog),
     ] {
         assert_eq!(live().judge(bit, true, DT_S), FaultSet::of(fault));
+        let young = live_for(1).judge(bit | OUTPUTS_LIVE, true, DT_S);
+        assert_eq!(young, FaultSet::of(fault));
         assert_eq!(
             live().judge(bit | OUTPUTS_LIVE, true, DT_S),
             FaultSet::of(fault)

@@ -1,6 +1,6 @@
 //! The tick renders what the scene asks for.
 
-use crate::models::{hhd, phantom};
+use crate::models::{hhd, phantom, torque_drive};
 use crate::rig::Rig;
 use hapticd_control::linear::V3;
 
@@ -22,7 +22,11 @@ fn virtual_coupling_pushes_back_along_the_normal() {
     let rig = Rig::pressing(hhd(), 0.001);
     let normal = V3::from(rig.record.contact_normal);
     let force_n = V3::from(rig.record.tip_force_command_n);
-    assert!((force_n - 20.0 * normal).norm() < 0.2, "{force_n}");
+    let expected_n = torque_drive().stiffness_n_per_m * 0.001 * normal;
+    assert!(
+        (force_n - expected_n).norm() < 0.02 * expected_n.norm(),
+        "{force_n}"
+    );
 }
 
 #[test]

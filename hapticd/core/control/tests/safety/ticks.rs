@@ -1,6 +1,6 @@
 //! The whole tick in the situations that the laws are about.
 
-use crate::models::{any_model, hhd, phantom};
+use crate::models::{any_model, hhd, phantom, torque_drive};
 use crate::rig::{is_zero, scene, Rig, RATE_HZ};
 use hapticd_control::controller::{Event, State};
 use hapticd_control::fault::Fault;
@@ -401,12 +401,14 @@ fn outputs_fade_towards_a_singularity() {
     assert_eq!(rig.record.faults, 0);
 }
 
+/// Pressed into a wall that answers the hand's 20 N.
 fn with_mode(rig: &mut Rig, allocation: Allocation) {
+    let depth_m = 20.0 / torque_drive().stiffness_n_per_m;
     let tip = V3::from(rig.record.tip_position_m);
     let normal = -tip.normalize();
     let wall = Wall {
         normal: normal.into(),
-        offset_m: normal.dot(&tip) + 0.001,
+        offset_m: normal.dot(&tip) + depth_m,
         eta: 0.0,
     };
     let scene = Scene {
