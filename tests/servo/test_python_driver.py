@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import gc
 import json
+import struct
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -26,7 +27,7 @@ class PlantDriver:
         self._plant = _core.Plant(model.device_json, model.twin_json, 1000.0, 1)
         self.answer: int | Exception = FRESH
         self.threads: set[int] = set()
-        self.last_command: list[float] = []
+        self.last_command: Sequence[float] = ()
         self.connections = 0
 
     @property
@@ -39,7 +40,7 @@ class PlantDriver:
 
     def exchange(self, command: memoryview, observation: memoryview) -> int:
         self.threads.add(threading.get_ident())
-        self.last_command = command.cast("d").tolist()
+        self.last_command = struct.unpack("=10d", command)
         if isinstance(self.answer, Exception):
             raise self.answer
         if self.answer == FRESH:

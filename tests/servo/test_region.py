@@ -176,6 +176,10 @@ def test_requests_without_a_servo_end_in_a_full_queue_and_not_in_a_wait(rig: Ser
     front = rig.front()
     servo.kill()
     servo.wait()
-    with pytest.raises(BlockingIOError, match="full"):
+
+    def send_for_ever() -> None:
         for _ in range(100_000):
             front.send('{"type": "desired", "desired": "disabled"}')
+
+    with pytest.raises(BlockingIOError, match="full"):
+        send_for_ever()
