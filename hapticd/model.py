@@ -70,7 +70,19 @@ def _override(document: dict[str, Any], key: str, value: Any) -> None:
     if key not in known:
         close = get_close_matches(key, known, n=3) or sorted(known)
         raise ValueError(f"The model has no key {key!r}. Known keys: {', '.join(close)}.")
-    known[key][key.rpartition(".")[2]] = value
+    table, name = known[key], key.rpartition(".")[2]
+    if _shape(value) != _shape(table[name]):
+        raise ValueError(f"{key} cannot be {value!r}: the model has {table[name]!r} there.")
+    table[name] = value
+
+
+def _shape(value: Any) -> tuple[str, ...]:
+    """What kind of value it is; a whole number is a number like any other, a list has its length."""
+    if isinstance(value, list | tuple):
+        return ("list", *(kind for entry in value for kind in _shape(entry)))
+    if isinstance(value, bool):
+        return ("bool",)
+    return ("number",) if isinstance(value, int | float) else (type(value).__name__,)
 
 
 def _leaves(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, dict[str, Any]]]:

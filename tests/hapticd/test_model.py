@@ -56,6 +56,25 @@ def test_a_value_that_makes_no_sense_is_refused_by_its_key() -> None:
         load_model("hhd", {"twin.hand.mass_kg": 0.0})
 
 
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("limits.tip_force_n", "50"),
+        ("brakes.release_on_stop", 1),
+        ("joints.home_rad", [0.5, 2.6]),
+        ("name", 3),
+    ],
+)
+def test_a_value_of_another_kind_is_refused_by_its_key(key: str, value: object) -> None:
+    with pytest.raises(ValueError, match=key):
+        load_model("hhd", {key: value})
+
+
+def test_a_whole_number_is_a_number() -> None:
+    changed = json.loads(load_model("hhd", {"limits.tip_force_n": 50}).device_json)
+    assert changed["limits"]["tip_force_n"] == 50
+
+
 def test_an_unknown_model_is_refused_with_the_known_ones() -> None:
     with pytest.raises(ValueError, match=r"hhd, phantom-1\.0"):
         load_model("phantom-2.0")
