@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from prometheus_client import CollectorRegistry, Gauge, ProcessCollector
 from starlette.middleware import Middleware
 
@@ -12,6 +12,7 @@ from hapticd_api.body import BodyGuard
 from hapticd_api.device_metrics import DeviceMetrics
 from hapticd_api.gate import Gate
 from hapticd_api.idempotency import Idempotency
+from hapticd_api.query import refuse_unknown_query
 from hapticd_api.release import release
 from hapticd_api.request_metrics import RequestMetrics
 from hapticd_api.response_headers import ResponseHeaders
@@ -35,11 +36,11 @@ from hapticd_api.routers import (
 )
 from hapticd_api.stream import endpoint
 
-_ROUTERS = (
+_RESOURCES = (
     *(devices, model, state, interlocks, estop, faults, scene, walls, twin, events),
     *(root, system, asyncapi, health, metrics, problems),
-    *(openapi, docs_page, page_files, endpoint),
 )
+_PAGES_AND_STREAMS = (openapi, docs_page, page_files, endpoint)
 
 
 def create_app(station: Station) -> FastAPI:
@@ -56,7 +57,9 @@ def create_app(station: Station) -> FastAPI:
     app.state.station = station
     app.state.streams = Gauge("hapticd_stream_clients", "Open WebSockets", registry=registry)
     app.state.registry = registry
-    for module in _ROUTERS:
+    for resource in _RESOURCES:
+        app.include_router(resource.router, dependencies=[Depends(refuse_unknown_query)])
+    for module in _PAGES_AND_STREAMS:
         app.include_router(module.router)
     errors.install(app)
     return app

@@ -143,6 +143,14 @@ async def test_bad_query_parameter_is_named(http: httpx.AsyncClient) -> None:
     assert "limit" in problem_of(response, 422, "invalid-document")["detail"]
 
 
+async def test_misspelt_dry_run_is_refused_instead_of_carried_out(http: httpx.AsyncClient, rig: Rig) -> None:
+    response = await http.put(f"{WALL}?dryrun=true", json=floor())
+    problem = problem_of(response, 422, "unknown-field")
+    assert "'dry_run'" in problem["hint"]
+    assert problem["allowed"] == ["dry_run"]
+    assert rig.servos["phantom"].requests == []
+
+
 async def test_unforeseen_error_is_a_problem_document_and_tells_no_secrets(
     http: httpx.AsyncClient, rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
