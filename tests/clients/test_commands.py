@@ -30,6 +30,17 @@ def wall_result(**members: Any) -> dict[str, Any]:
     }
 
 
+def state_report(device_id: str, state: str) -> dict[str, Any]:
+    return {
+        "device_id": device_id,
+        "state": state,
+        "flags": device()["flags"],
+        "faults": [],
+        "interlocks": [],
+        "applied": {"tick": 12, "t_mono_ns": 1, "fade_s": 0.0, "clamped": []},
+    }
+
+
 def test_status_shows_each_device(run: Run, double: DaemonDouble) -> None:
     hhd = device("hhd", dof=2, tip_position_m=[0.1, 0.2], state="enabled")
     double.answer("GET /api/v1/devices", {"devices": [device(), hhd]})
@@ -190,6 +201,16 @@ def test_estop_reaches_the_second_device_although_the_first_refuses(run: Run, do
     assert result.exit_code == 1
 
 
+def test_disabling_reaches_the_second_device_although_the_first_refuses(
+    run: Run, double: DaemonDouble
+) -> None:
+    double.answer("PUT /api/v1/devices/phantom/state", problem("servo-silent", 504), status=504)
+    double.answer("PUT /api/v1/devices/hhd/state", state_report("hhd", "disabled"))
+    result = run("disable", "phantom", "hhd")
+    assert result.stdout.splitlines() == ["hhd is disabled since tick 12"]
+    assert result.exit_code == 1
+
+
 def test_estop_is_only_acknowledged_when_asked(run: Run, double: DaemonDouble) -> None:
     double.answer("DELETE /api/v1/estop", {"engaged": False, "devices": []})
     run("estop", "--acknowledge")
@@ -213,14 +234,6 @@ def test_acknowledging_clears_every_latched_fault(run: Run, double: DaemonDouble
 
 def test_enabling_several_devices_reports_each(run: Run, double: DaemonDouble) -> None:
     for name in ("phantom", "hhd"):
-        report = {
-            "device_id": name,
-            "state": "enabled",
-            "flags": device()["flags"],
-            "faults": [],
-            "interlocks": [],
-            "applied": {"tick": 12, "t_mono_ns": 1, "fade_s": 0.0, "clamped": []},
-        }
-        double.answer(f"PUT /api/v1/devices/{name}/state", report)
+        double.answer(f"PUT /api/v1/devices/{name}/state", state_report(name, "enabled"))
     lines = run("enable", "phantom", "hhd").stdout.splitlines()
     assert lines == ["phantom is enabled since tick 12", "hhd is enabled since tick 12"]

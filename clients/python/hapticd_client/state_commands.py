@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import typer
 from rich.markup import escape
@@ -20,6 +20,8 @@ from hapticd_client.terminal import (
     print_json,
     state_text,
 )
+
+Report = TypeVar("Report")
 
 DevicesArgument = Annotated[list[str], typer.Argument(metavar="DEVICE...", help="Ids of devices")]
 OptionalDevices = Annotated[list[str] | None, typer.Argument(metavar="[DEVICE...]", help="Else all")]
@@ -81,10 +83,14 @@ def acknowledge(
 def _set_state(devices: list[str], desired: Desired, url: str | None, as_json: bool) -> None:
     reports: list[StateReport] = []
     with daemon(url, as_json=as_json) as client:
-        for device_id in devices:
-            reports.append(client.set_state(device_id, desired))
+
+        def ask(device_id: str) -> StateReport:
+            reports.append(report := client.set_state(device_id, desired))
             if not as_json:
-                _show(reports[-1])
+                _show(report)
+            return report
+
+        _each(ask, devices)
     if as_json:
         print_json(reports)
 
@@ -104,7 +110,7 @@ def _acknowledge_estops(client: Client, devices: list[str] | None) -> list[Estop
     return _each(client.acknowledge_estop, devices) if devices else client.acknowledge_all_estops()
 
 
-def _each(act: Callable[[str], EstopReport], devices: list[str]) -> list[EstopReport]:
+def _each(act: Callable[[str], Report], devices: list[str]) -> list[Report]:
     """Acts on every device, and only then complains of those that refused: one must not shield the next."""
     reports, refusals = [], []
     for device_id in devices:
