@@ -78,3 +78,29 @@ impl Ack {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_outcome_survives_its_words() {
+        for outcome in Outcome::ALL {
+            let ack = Ack {
+                id: 1,
+                tick: 2,
+                t_mono_ns: 3,
+                outcome,
+                interlocks: 4,
+                state: 5,
+            };
+            assert_eq!(Ack::decode(&ack.encode()), Some(ack));
+        }
+    }
+
+    #[test]
+    fn an_unknown_outcome_is_no_ack() {
+        assert_eq!(Ack::decode(&[1, 2, 3, 5, 0, 0]), None);
+        assert_eq!(Ack::decode(&[1, 2, 3, u64::MAX, 0, 0]), None);
+    }
+}
