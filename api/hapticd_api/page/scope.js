@@ -3,6 +3,7 @@
 import { written } from "./vector.js";
 
 const SHOWN_S = 4;
+const GAP_S = 0.05;
 const PADDING = { left: 46, right: 8, top: 8, bottom: 18 };
 
 /** The newest samples of some traces, by time. */
@@ -47,7 +48,9 @@ export class Scope {
     this.range = [0, 0];
   }
 
+  /** Adds a sample. Where time passed without any, the traces have a gap. */
   push(time_s, values) {
+    if (time_s - this.newest_s > GAP_S) this.history.push(time_s, []);
     this.history.push(time_s, values);
     this.newest_s = time_s;
   }
@@ -125,16 +128,21 @@ export class Scope {
     context.lineWidth = 1.5;
     context.lineJoin = "round";
     context.beginPath();
-    let column = -1;
-    let [low, high] = [0, 0];
+    let [column, low, high, penUp] = [-1, 0, 0, true];
     const flush = () => {
       if (column < 0) return;
+      if (penUp) context.moveTo(x + column, this.#y(low));
       context.lineTo(x + column, this.#y(low));
       if (high !== low) context.lineTo(x + column, this.#y(high));
+      penUp = false;
     };
     this.history.since(from_s, (time_s, at) => {
       const value = trace[at];
-      if (Number.isNaN(value)) return;
+      if (Number.isNaN(value)) {
+        flush();
+        [column, penUp] = [-1, true];
+        return;
+      }
       const here = Math.round(((time_s - from_s) / SHOWN_S) * w);
       if (here !== column) {
         flush();

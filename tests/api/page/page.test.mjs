@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { chains, views } from "../../../api/hapticd_api/page/kinematics.js";
 import { clipped, Projection } from "../../../api/hapticd_api/page/projection.js";
-import { History, roundStep } from "../../../api/hapticd_api/page/scope.js";
+import { History, roundStep, Scope } from "../../../api/hapticd_api/page/scope.js";
 import { charts } from "../../../api/hapticd_api/page/traces.js";
 import { newWall } from "../../../api/hapticd_api/page/wall_form.js";
 
@@ -132,4 +132,14 @@ test("a new wall lies beyond the tip and takes a free name", () => {
   const wall = newWall(2, [0, 0.2], ["wall", "wall-2"]);
   assert.equal(wall.id, "wall-3");
   assert.deepEqual(wall.shape, { type: "plane", point_m: [-0, 0.22], normal: [0, -1] });
+});
+
+test("time without samples leaves a gap instead of a line", () => {
+  const scope = new Scope({ getContext: () => null }, ["depth"], 1000);
+  scope.push(1.0, [5]);
+  scope.push(1.001, [6]);
+  scope.push(3.0, [7]);
+  const seen = [];
+  scope.history.since(0, (_, at) => seen.push(scope.history.traces[0][at]));
+  assert.deepEqual(seen, [5, 6, NaN, 7]);
 });
