@@ -34,7 +34,7 @@ class Ack(TypedDict):
     tick: int
     t_mono_ns: int
     result: str
-    """`applied`, `refused` (see interlocks), `epoch` (stale lease), `malformed`, `unsupported` (not a twin)."""
+    """`applied`, `refused` (interlocks), `epoch` (stale lease), `malformed`, `unsupported` (not a twin)."""
     interlocks: int
     state: str
 
@@ -147,7 +147,7 @@ class Servo:
     def __init__(self, config_json: str, driver: Driver | None) -> None: ...
     def start(self) -> None: ...
     def wait(self) -> str:
-        """Blocks without the GIL until `stopped`, `orphaned`, `down` or `failed: <why>`; signals are handled."""
+        """Blocks without the GIL until `stopped`, `orphaned`, `down` or `failed: <why>`; handles signals."""
     def driver_ready(self) -> None:
         """The driver is connected: the loop may call it from the next tick on."""
     def request_stop(self) -> None:

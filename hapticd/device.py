@@ -117,7 +117,7 @@ class Device:
     async def acknowledge_estop(self) -> Applied | None:
         """Clears the latched E-stop; None where it only waited for a servo.
 
-        ``Problem``: interlock-open while its input is open, device-offline when nothing is known to be latched.
+        ``Problem``: interlock-open while its input is open, device-offline when nothing waited.
         """
         owed, self._estop_owed = self._estop_owed, False
         if self._channel is None and owed:

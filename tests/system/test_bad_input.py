@@ -45,7 +45,12 @@ CASES = {
     "eta as text": ("phantom", wall(law=motion("soft")), 422, "/law/eta"),
     "unknown law": ("phantom", wall(law={"type": "jelly"}), 422, "/law"),
     "millimetres": ("phantom", wall(shape=plane([0, 0, -20.0], [0, 0, 1])), 422, "/shape/point_m/2"),
-    "two coordinates on a device of three": ("phantom", wall(shape=plane([0, 0], [0, 1])), 422, "/shape/point_m"),
+    "two coordinates on a device of three": (
+        "phantom",
+        wall(shape=plane([0, 0], [0, 1])),
+        422,
+        "/shape/point_m",
+    ),
     "three coordinates on a device of two": ("hhd", wall(), 422, "/shape/point_m"),
     "another id than the address": ("phantom", wall(id="ceiling"), 422, "/id"),
 }
@@ -70,7 +75,9 @@ def test_wall_is_refused_by_name_and_nothing_changes(daemon: DaemonProcess, case
 def test_numbers_that_are_not_finite_are_refused(daemon: DaemonProcess, number: str) -> None:
     body = json.dumps(FLOOR).replace("-0.02", number)
     answer = daemon.http.put(
-        "/api/v1/devices/phantom/scene/walls/floor", content=body, headers={"content-type": "application/json"}
+        "/api/v1/devices/phantom/scene/walls/floor",
+        content=body,
+        headers={"content-type": "application/json"},
     )
     assert answer.status_code in {400, 422}, answer.text
     assert answer.headers["content-type"] == "application/problem+json"

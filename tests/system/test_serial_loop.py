@@ -93,7 +93,8 @@ def report(ticks: Ticks, steps_n: np.ndarray) -> str:
     return (
         f"HHD over a pseudo-terminal: {len(ticks)} ticks, {late} without a new frame, {lost} frames lost, "
         f"{int(ticks['missed_ticks'][-1] - ticks['missed_ticks'][0])} deadlines missed, "
-        f"largest step of the felt force {steps_n.max():.2f} N, deepest {1e3 * ticks['contact_depth_m'].max():.2f} mm"
+        f"largest step of the felt force {steps_n.max():.2f} N, "
+        f"deepest {1e3 * ticks['contact_depth_m'].max():.2f} mm"
     )
 
 

@@ -7,6 +7,10 @@ use crate::linear::{invert_axes, V3};
 use crate::model::{DriveModel, SpringDriveModel, TorqueDriveModel};
 use crate::thermal::Thermal;
 
+/// Joint torque, N·m, that counts as none: it keeps a torque that dies away out of the denormal
+/// numbers, whose arithmetic is slow.
+const TORQUE_MIN_NM: f64 = 1e-12;
+
 /// Share of the present torque that is left after `period_s`, for the residual circuit
 /// e_W − k_T θ̇ = dR i + L i̇ of a spring drive: a = e^(−T dR/L) (physics §2).
 #[must_use]
@@ -25,7 +29,14 @@ pub fn torque_retention(drive: &TorqueDriveModel, period_s: f64) -> V3 {
 /// Torque after one period: τ⁺ = τ + (1−a)(τ_cmd − τ).
 #[must_use]
 pub fn settle(present_nm: &V3, command_nm: &V3, retain: &V3) -> V3 {
-    command_nm + retain.component_mul(&(present_nm - command_nm))
+    let settled_nm = command_nm + retain.component_mul(&(present_nm - command_nm));
+    settled_nm.map(|torque| {
+        if torque.abs() < TORQUE_MIN_NM {
+            0.0
+        } else {
+            torque
+        }
+    })
 }
 
 /// Back-EMF k_T ρ q̇, V.
