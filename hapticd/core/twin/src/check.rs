@@ -160,6 +160,7 @@ impl HandModel {
             ("hand.mass_kg", self.mass_kg),
             ("hand.grip_stiffness_n_per_m", self.grip_stiffness_n_per_m),
             ("hand.arm_stiffness_n_per_m", self.arm_stiffness_n_per_m),
+            ("hand.arm_force_max_n", self.arm_force_max_n),
             ("hand.brace", self.brace),
             ("hand.reach_rad_per_s", self.reach_rad_per_s),
             ("hand.reach_m_per_s", self.reach_m_per_s),

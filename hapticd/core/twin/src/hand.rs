@@ -97,6 +97,7 @@ impl Hand {
             + (self.velocity - tip_velocity) * m.grip_damping_n_s_per_m;
         let arm = (self.intention.position - self.position) * k_a
             + (self.intention.velocity - self.velocity) * b_a;
+        let arm = arm.cap_magnitude(m.arm_force_max_n);
         self.velocity += (arm - grip) * (h / m.mass_kg);
         self.position += self.velocity * h;
         grip

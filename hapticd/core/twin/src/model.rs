@@ -215,6 +215,8 @@ pub struct HandModel {
     pub arm_stiffness_n_per_m: f64,
     /// Arm b_a, N·s/m.
     pub arm_damping_n_s_per_m: f64,
+    /// Largest force of the arm, N.
+    pub arm_force_max_n: f64,
     /// Factor on arm stiffness and damping while braced.
     pub brace: f64,
     /// Bandwidth with which the intention reaches for a point, rad/s.

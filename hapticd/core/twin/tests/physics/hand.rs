@@ -159,6 +159,17 @@ fn a_clamp_carries_the_tip_to_its_point_and_reads_the_motor_force() {
 }
 
 #[test]
+fn a_target_out_of_reach_gets_no_more_than_the_arms_strength() {
+    let tip = V3::new(0.0, 0.2, 0.0);
+    let mut hand = Hand::new(&arm(), tip, 2);
+    hand.begin(Script::Follow {
+        target_m: [0.0, 9.0, 0.0],
+    });
+    let force = against_a_wall(&mut hand, tip, 12.0).norm();
+    assert!((force - arm().arm_force_max_n).abs() < 0.1, "{force}");
+}
+
+#[test]
 fn a_braced_arm_yields_less() {
     let yielded = |stiff: bool| {
         let mut rig = Rig::phantom();
