@@ -18,7 +18,10 @@ def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--seconds", type=int, default=60, help="length of each loaded run")
     seconds = arguments.parse_args().seconds
-    print(f"{platform.platform()}, {os.cpu_count()} processors, Python {platform.python_version()}\n", flush=True)
+    print(
+        f"{platform.platform()}, {os.cpu_count()} processors, Python {platform.python_version()}\n",
+        flush=True,
+    )
     for example in EXAMPLES:
         print(_example(*example.split(":")), flush=True)
     for rate_hz in (1000, 4000):

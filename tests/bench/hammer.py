@@ -15,7 +15,14 @@ from websockets.asyncio.client import connect
 
 REST_CLIENTS = 8
 STREAM_CLIENTS = 20
-SIGNALS = ["tip_position_m", "tip_velocity_m_per_s", "tip_force_n", "setpoint_position_m", "lateness_ns", "tick"]
+SIGNALS = [
+    "tip_position_m",
+    "tip_velocity_m_per_s",
+    "tip_force_n",
+    "setpoint_position_m",
+    "lateness_ns",
+    "tick",
+]
 
 
 async def rest(address: str, number: int, end_s: float, latencies_s: list[float]) -> None:
