@@ -148,7 +148,7 @@ impl Controller {
         let wanted = Wanted {
             pose: &self.pose,
             demand: &self.rendering.demand,
-            hand_force_n: measured_force_n(observation),
+            hand_force_n: self.hand_force_n(observation),
             allocation: self.renderer.layers().top().allocation,
             fresh,
         };
@@ -158,6 +158,18 @@ impl Controller {
         if sent.acted & limit::NON_FINITE != 0 {
             self.guard.raise(FaultSet::of(Fault::OutputNotFinite));
             self.stage.cut();
+        }
+    }
+
+    /// The measured force of the hand on the device, N; zero where none is measured, and where
+    /// the sensor has a fault: then it is no value (law 4).
+    fn hand_force_n(&self, observation: &Observation) -> V3 {
+        let faults = self.guard.machine().faults;
+        let faulty = faults.contains(Fault::SensorStale) || faults.contains(Fault::SensorSaturated);
+        if faulty || observation.status & status::FORCE_PRESENT == 0 {
+            V3::zeros()
+        } else {
+            observation.force_n.into()
         }
     }
 
@@ -197,14 +209,5 @@ impl Controller {
             Output::Cut => false,
         };
         moving || self.renderer.layers().fading()
-    }
-}
-
-/// The measured force of the hand on the device, N; zero where none is measured.
-fn measured_force_n(observation: &Observation) -> V3 {
-    if observation.status & status::FORCE_PRESENT != 0 {
-        observation.force_n.into()
-    } else {
-        V3::zeros()
     }
 }

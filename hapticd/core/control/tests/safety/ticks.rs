@@ -457,6 +457,26 @@ fn brakes_let_go_as_soon_as_the_hand_unloads() {
 }
 
 #[test]
+fn force_of_a_faulty_sensor_decides_nothing() {
+    for (bit, fault) in [
+        (status::SENSOR_SATURATED, Fault::SensorSaturated),
+        (status::FORCE_PRESENT, Fault::SensorStale),
+    ] {
+        let mut rig = Rig::running(hhd());
+        with_mode(&mut rig, Allocation::MotorAndBrake);
+        rig.steps(200);
+        rig.observation.status ^= bit;
+        rig.step();
+        assert!(rig.has(fault));
+        assert!(rig.command.enable, "cut instead of faded");
+        assert_eq!(rig.command.brake_torque_nm, [0.0; 3]);
+        rig.observation.status ^= bit;
+        rig.step();
+        assert_eq!(rig.command.brake_torque_nm, [0.0; 3], "still latched");
+    }
+}
+
+#[test]
 fn brake_that_rises_too_fast_says_so() {
     let mut model = hhd();
     model.limits.brake_slew_nm_per_s = 100.0;
