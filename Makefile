@@ -71,7 +71,7 @@ lint-python: $(VENV)/.installed
 .PHONY: lint-page
 lint-page:
 	$(need_node)
-	for script in $(PAGE_SCRIPTS); do node --check --input-type=module - < "$$script" || { echo "in $$script" >&2; exit 1; }; done
+	@for script in $(PAGE_SCRIPTS); do node --check --input-type=module - < "$$script" || { echo "in $$script" >&2; exit 1; }; done
 
 .PHONY: format
 format: $(VENV)/.installed ## put every file into its one format
