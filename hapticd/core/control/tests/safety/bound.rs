@@ -116,6 +116,16 @@ fn voltage_share_is_zero_where_the_back_emf_fills_the_supply() {
 }
 
 #[test]
+fn voltage_share_ignores_an_axis_without_a_supply() {
+    let planar = Supply {
+        emf_v: V3::new(4.0, -4.0, 0.0),
+        v_per_nm: V3::new(10.0, 10.0, 0.0),
+        max_v: V3::new(24.0, 24.0, 0.0),
+    };
+    assert_eq!(voltage_share(&V3::new(1.0, 1.0, 0.0), &planar), 1.0);
+}
+
+#[test]
 fn slew_share_counts_only_what_the_motor_gives_within_the_period() {
     let (limits, lever) = (limits(), lever());
     let prompt = bounds(&limits, &lever);
@@ -242,6 +252,17 @@ fn limits_have_the_last_word_over_the_slew() {
     };
     let bounded = bound_motor(&V3::zeros(), &outside);
     assert!(near(bounded.torque_nm[0], 3.0), "{}", bounded.torque_nm);
+    assert_eq!(bounded.acted, limit::SLEW | limit::TIP_FORCE);
+}
+
+#[test]
+fn limit_that_acts_before_and_after_the_slew_still_names_itself() {
+    let (limits, lever) = (limits(), lever());
+    let outside = Bounds {
+        present_nm: V3::new(4.0, 0.0, 0.0),
+        ..bounds(&limits, &lever)
+    };
+    let bounded = bound_motor(&V3::new(-4.0, 0.0, 0.0), &outside);
     assert_eq!(bounded.acted, limit::SLEW | limit::TIP_FORCE);
 }
 
