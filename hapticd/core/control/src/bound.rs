@@ -49,14 +49,15 @@ pub fn bound_motor(asked_nm: &V3, bounds: &Bounds<'_>) -> Bounded {
             acted: limit::NON_FINITE,
         };
     }
-    let limited = limited(&(bounds.fade * asked_nm), bounds);
-    let share = slew_share(&(limited.torque_nm - bounds.present_nm), bounds);
-    let slewed = bounds.present_nm + share * (limited.torque_nm - bounds.present_nm);
-    let last = limited_again(&slewed, share, bounds);
+    let target = limited(&(bounds.fade * asked_nm), bounds);
+    let step_nm = target.torque_nm - bounds.present_nm;
+    let share = slew_share(&step_nm, bounds);
+    // The present torque may lie outside: pose, speed or budget moved the limits.
+    let last = limited(&(bounds.present_nm + share * step_nm), bounds);
     let slew = if share < 1.0 { limit::SLEW } else { 0 };
     Bounded {
         torque_nm: last.torque_nm,
-        acted: limited.acted | last.acted | slew,
+        acted: target.acted | last.acted | slew,
     }
 }
 
@@ -140,19 +141,6 @@ fn limited(torque_nm: &V3, bounds: &Bounds<'_>) -> Bounded {
         acted: acted(joint, limit::MOTOR_TORQUE)
             | acted(tip, limit::TIP_FORCE)
             | acted(volts, limit::VOLTAGE),
-    }
-}
-
-/// A slewed torque lies between the present one and one inside the limits. The present one may
-/// be outside: the pose, the speed or the budget moved the limits.
-fn limited_again(slewed_nm: &V3, share: f64, bounds: &Bounds<'_>) -> Bounded {
-    if share < 1.0 {
-        limited(slewed_nm, bounds)
-    } else {
-        Bounded {
-            torque_nm: *slewed_nm,
-            acted: 0,
-        }
     }
 }
 
