@@ -128,8 +128,9 @@ class DaemonProcess:
 
     def pushes(self, device_id: str) -> bool:
         """Whether the device is in contact and gives more than 1 N."""
-        force_n = self.device(device_id)["tip_force_n"]
-        return self.device(device_id)["flags"]["contact"] and sum(f * f for f in force_n) > 1.0
+        device = self.device(device_id)
+        squared_n2 = sum(force_n**2 for force_n in device["tip_force_n"])
+        return bool(device["flags"]["contact"] and squared_n2 > 1.0)
 
     def servo_pid(self, device_id: str) -> int:
         """Process of the device's servo."""

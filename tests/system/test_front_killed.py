@@ -9,6 +9,7 @@ from hapticd import _core
 from hapticd.record import record_dtype
 from tests.system.conftest import StartDaemon
 from tests.system.daemon_process import FLOOR, UNDER_FLOOR, DaemonProcess, wait_until
+from tests.system.tick_log import Ticks
 
 pytestmark = pytest.mark.system
 
@@ -19,7 +20,7 @@ SLEW_N_PER_TICK = 4.0
 FAULT = 4
 
 
-def ticks_after_kill(daemon: DaemonProcess) -> np.ndarray:
+def ticks_after_kill(daemon: DaemonProcess) -> Ticks:
     """The ticks of the PHANTOM from the kill of the front until it is in fault and at rest."""
     region = _core.Front(str(daemon.region("phantom")), observe=True)
     try:
@@ -35,7 +36,8 @@ def ticks_after_kill(daemon: DaemonProcess) -> np.ndarray:
 
 def newest(region: _core.Front) -> np.void:
     """The newest tick in a region."""
-    return np.frombuffer(region.latest(), record_dtype())[0]
+    record: np.void = np.frombuffer(region.latest(), record_dtype())[0]
+    return record
 
 
 def test_servo_fades_to_zero_within_the_watchdog_time_when_the_front_dies_in_contact(

@@ -13,7 +13,7 @@ from hapticd.record import record_dtype
 from tests.system.conftest import StartDaemon
 from tests.system.daemon_process import DaemonProcess, wait_until
 from tests.system.emulated_board import EmulatedBoard
-from tests.system.tick_log import TickLog, Ticks
+from tests.system.tick_log import TickLog, Ticks, Values
 
 pytestmark = pytest.mark.system
 
@@ -65,8 +65,9 @@ def pushed_and_released(board: EmulatedBoard, seconds: float) -> None:
         time.sleep(CYCLE_S / 2)
 
 
-def forces_n(ticks: Ticks) -> np.ndarray:
-    return np.linalg.norm(ticks["tip_force_command_n"], axis=1)
+def forces_n(ticks: Ticks) -> Values:
+    forces: Values = np.linalg.norm(ticks["tip_force_command_n"], axis=1)
+    return forces
 
 
 def test_wall_stays_rigid_and_force_never_steps_for_a_minute_over_real_bytes(
@@ -92,14 +93,15 @@ def test_wall_stays_rigid_and_force_never_steps_for_a_minute_over_real_bytes(
     assert len(judged) > 0.9 * len(ticks), "the machine starved the board"
 
 
-def undisturbed(ticks: Ticks) -> np.ndarray:
+def undisturbed(ticks: Ticks) -> Values:
     """Fresh ticks away from a long silence of the board, whose effect another test judges."""
     starved = (ticks["observation_missing"] > SILENT_TICKS).astype(int)
     nearby = np.convolve(starved, np.ones(RECOVERY_TICKS, dtype=int))[: len(ticks)]
-    return (nearby == 0) & (ticks["flags"] & STATUS_FRESH != 0)
+    judged: Values = (nearby == 0) & (ticks["flags"] & STATUS_FRESH != 0)
+    return judged
 
 
-def report(ticks: Ticks, judged: Ticks, steps_n: np.ndarray) -> str:
+def report(ticks: Ticks, judged: Ticks, steps_n: Values) -> str:
     """The counts of the run, for the reader of the log."""
     late = int(np.sum(ticks["flags"] & STATUS_FRESH == 0))
     lost = int(ticks["observation_lost"][-1] - ticks["observation_lost"][0])

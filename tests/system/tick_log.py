@@ -16,6 +16,7 @@ PERIOD_S = 0.2
 READ_MAX = 4096
 
 Ticks = np.ndarray[Any, np.dtype[np.void]]
+Values = np.ndarray[Any, np.dtype[Any]]
 
 
 class TickLog:
