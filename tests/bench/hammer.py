@@ -12,6 +12,7 @@ import time
 
 import httpx
 from websockets.asyncio.client import connect
+from websockets.typing import Subprotocol
 
 REST_CLIENTS = 8
 STREAM_CLIENTS = 20
@@ -58,7 +59,7 @@ async def stream(address: str, number: int, end_s: float, ticks: list[int]) -> N
     """One client that wants every tick of one device; counts what came and what was dropped."""
     url = f"{address.replace('http', 'ws', 1)}/api/v1/stream"
     subscribe = {"type": "subscribe", "id": "all", "device": ("phantom", "hhd")[number % 2]}
-    async with connect(url, subprotocols=["hapticd.v1+json"], max_size=None) as socket:
+    async with connect(url, subprotocols=[Subprotocol("hapticd.v1+json")], max_size=None) as socket:
         await socket.send(json.dumps({"type": "hello", "version": 1}))
         await socket.send(json.dumps({**subscribe, "signals": SIGNALS, "mode": "batch"}))
         while time.monotonic() < end_s:
