@@ -114,7 +114,8 @@ class Session:
         raise Closing(CloseCode.TOO_SLOW)
 
     async def _send_snapshot(self, device_id: str) -> None:
-        snapshot = self._station.device(device_id).snapshot()
+        # Not by `device`, which refuses while the daemon stops: the last snapshots still go out.
+        snapshot = self._station.devices[device_id].snapshot()
         document = snapshot.model_dump(mode="json")
         await self._connection.send({"type": "snapshot", "device": device_id, "snapshot": document})
 
