@@ -2,6 +2,7 @@
 //! names the law of docs/safety.md that it enforces.
 
 use crate::actuator::Supply;
+use crate::bits;
 use crate::linear::{M3, V3};
 use crate::model::LimitModel;
 use crate::record::limit;
@@ -54,10 +55,13 @@ pub fn bound_motor(asked_nm: &V3, bounds: &Bounds<'_>) -> Bounded {
     let share = slew_share(&step_nm, bounds);
     // The present torque may lie outside: pose, speed or budget moved the limits.
     let last = limited(&(bounds.present_nm + share * step_nm), bounds);
-    let slew = if share < 1.0 { limit::SLEW } else { 0 };
     Bounded {
         torque_nm: last.torque_nm,
-        acted: target.acted | last.acted | slew,
+        acted: bits::union(&[
+            (true, target.acted),
+            (true, last.acted),
+            (share < 1.0, limit::SLEW),
+        ]),
     }
 }
 
@@ -135,12 +139,13 @@ fn limited(torque_nm: &V3, bounds: &Bounds<'_>) -> Bounded {
     let volts = bounds
         .supply
         .map_or(1.0, |supply| voltage_share(torque_nm, &supply));
-    let acted = |share: f64, bit: u64| if share < 1.0 { bit } else { 0 };
     Bounded {
         torque_nm: joint.min(tip).min(volts) * torque_nm,
-        acted: acted(joint, limit::MOTOR_TORQUE)
-            | acted(tip, limit::TIP_FORCE)
-            | acted(volts, limit::VOLTAGE),
+        acted: bits::union(&[
+            (joint < 1.0, limit::MOTOR_TORQUE),
+            (tip < 1.0, limit::TIP_FORCE),
+            (volts < 1.0, limit::VOLTAGE),
+        ]),
     }
 }
 

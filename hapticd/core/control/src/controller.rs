@@ -1,5 +1,6 @@
 //! The controller of one device: one call a tick, from observation to command.
 
+use crate::bits;
 use crate::check::{check, ModelError};
 use crate::estimate::{Estimator, JointState};
 use crate::fault::{Fault, FaultSet};
@@ -191,7 +192,7 @@ impl Controller {
 
     fn flags(&self, fresh: bool) -> u64 {
         let machine = self.guard.machine();
-        publish::flags(&[
+        bits::union(&[
             (machine.homed, flag::HOMED),
             (machine.busy, flag::BUSY),
             (machine.estop, flag::ESTOP),

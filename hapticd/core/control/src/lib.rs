@@ -4,6 +4,7 @@
 
 pub mod actuator;
 pub mod allocate;
+pub mod bits;
 pub mod bound;
 pub mod brake;
 pub mod braking;

@@ -1,5 +1,6 @@
 //! From everything a tick knew to its record.
 
+use crate::bits;
 use crate::estimate::JointState;
 use crate::io::{status, Observation};
 use crate::linear::V3;
@@ -51,10 +52,10 @@ pub fn command(record: &mut TickRecord, stage: &Stage, pose: &JointState) {
     record.brake_torque_nm = sent.command.brake_torque_nm;
     record.motor_torque_nm = sent.motor_nm.into();
     record.tip_force_command_n = tip_force_n(pose, &sent.motor_nm).into();
-    record.brake_usable = bits(&sent.usable);
+    record.brake_usable = bits::joints(&sent.usable);
     record.gain = stage.gain();
     let folding = stage.motors().budget().folding();
-    record.limits = sent.acted | if folding { limit::THERMAL } else { 0 };
+    record.limits = bits::union(&[(true, sent.acted), (folding, limit::THERMAL)]);
 }
 
 /// What the actuators give, by their models. At rest the brakes hold against the motors and the
@@ -73,20 +74,6 @@ pub fn actuators(record: &mut TickRecord, stage: &Stage, pose: &JointState) {
         given_nm += brakes.reaction_nm(&pose.qd, &(motor_nm + hand_nm));
     }
     record.tip_force_n = tip_force_n(pose, &given_nm).into();
-}
-
-/// The bits whose condition holds.
-#[must_use]
-pub fn flags(pairs: &[(bool, u64)]) -> u64 {
-    pairs
-        .iter()
-        .filter(|(holds, _)| *holds)
-        .fold(0, |bits, (_, bit)| bits | bit)
-}
-
-/// One bit per joint.
-fn bits(joints: &[bool; 3]) -> u64 {
-    (0..3).fold(0, |bits, i| bits | u64::from(joints[i]) << i)
 }
 
 /// J⁻ᵀτ, N.

@@ -2,6 +2,7 @@
 
 use crate::actuator::Motors;
 use crate::allocate::Split;
+use crate::bits;
 use crate::bound::{bound_motor, singularity_fade, tip_share, Bounded, Bounds};
 use crate::brake::Brakes;
 use crate::braking::Braking;
@@ -169,7 +170,7 @@ impl Stage {
             motor_nm: motor.torque_nm,
             usable: split.usable,
             gain: self.gain.value,
-            acted: motor.acted | braked | shaped,
+            acted: bits::union(&[(true, motor.acted), (true, braked), (true, shaped)]),
         }
     }
 
@@ -185,9 +186,11 @@ impl Stage {
             &wanted.pose.jacobian_inverse,
             self.limits.tip_force_n,
         );
-        let acted = |factor: f64, bit: u64| if factor < 1.0 { bit } else { 0 };
-        let limits = acted(near, limit::SINGULARITY) | acted(share, limit::TIP_FORCE);
-        (self.split(wanted, share), near * self.gain.value, limits)
+        let acted = bits::union(&[
+            (near < 1.0, limit::SINGULARITY),
+            (share < 1.0, limit::TIP_FORCE),
+        ]);
+        (self.split(wanted, share), near * self.gain.value, acted)
     }
 
     fn split(&mut self, wanted: &Wanted<'_>, share: f64) -> Split {

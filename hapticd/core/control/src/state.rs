@@ -1,6 +1,7 @@
 //! The device state machine: one pure value that takes events and returns the next value.
 //! It has no clock and knows nothing of outputs; it only says how they are to be driven.
 
+use crate::bits;
 use crate::fault::{Fault, FaultSet, Severity};
 use crate::interlock;
 
@@ -102,15 +103,16 @@ impl Machine {
     /// Open interlocks against enabling, bits of [`crate::interlock`].
     #[must_use]
     pub fn interlocks(&self, around: Surroundings) -> u64 {
-        let bit = |open: bool, bit: u64| if open { bit } else { 0 };
-        bit(self.state == State::Offline, interlock::OFFLINE)
-            | bit(self.estop, interlock::ESTOP_LATCHED)
-            | bit(around.estop_input, interlock::ESTOP_INPUT)
-            | bit(!self.faults.is_empty(), interlock::FAULT_LATCHED)
-            | bit(!self.homed, interlock::NOT_HOMED)
-            | bit(!around.realtime_ok, interlock::REALTIME_MISSING)
-            | bit(self.busy, interlock::BUSY)
-            | bit(!around.front_alive, interlock::FRONT_MISSING)
+        bits::union(&[
+            (self.state == State::Offline, interlock::OFFLINE),
+            (self.estop, interlock::ESTOP_LATCHED),
+            (around.estop_input, interlock::ESTOP_INPUT),
+            (!self.faults.is_empty(), interlock::FAULT_LATCHED),
+            (!self.homed, interlock::NOT_HOMED),
+            (!around.realtime_ok, interlock::REALTIME_MISSING),
+            (self.busy, interlock::BUSY),
+            (!around.front_alive, interlock::FRONT_MISSING),
+        ])
     }
 
     /// Latches faults. Those that stop take the device to `Fault`, unless it is offline.
