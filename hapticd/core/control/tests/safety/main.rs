@@ -1,9 +1,11 @@
 //! The safety layer, from single formulas to the eight laws over the whole tick.
 
+mod absences;
 mod actuator;
 mod allocate;
 mod bound;
 mod brake;
+mod brakes_at_work;
 mod budget;
 mod check;
 mod checker;

@@ -170,3 +170,25 @@ pub fn scene(walls: &[Wall], fade_s: f64) -> Scene {
 pub fn is_zero(command: &Command) -> bool {
     *command == Command::default()
 }
+
+/// Tip force that was commanded, N.
+pub fn tip_force_n(record: &TickRecord) -> V3 {
+    record.tip_force_command_n.into()
+}
+
+/// Has an event carried out.
+pub fn ask(rig: &mut Rig, event: Event) {
+    rig.controller.event(event).expect("event is carried out");
+}
+
+/// Runs to the end of a fade and gives the largest step of the commanded force on the way, N.
+pub fn fade_out(rig: &mut Rig) -> f64 {
+    let mut largest_n: f64 = 0.0;
+    let ticks = (2.0 * rig.model.limits.fade_s * RATE_HZ) as usize + 2;
+    for _ in 0..ticks {
+        let before = tip_force_n(&rig.record);
+        rig.step();
+        largest_n = largest_n.max((tip_force_n(&rig.record) - before).norm());
+    }
+    largest_n
+}
