@@ -9,6 +9,10 @@ from pathlib import Path
 from typing import Any, Self
 
 
+WATCHDOG_S = 0.25
+"""Longer than a shared machine stands still."""
+
+
 class EmulatedBoard:
     """The HHD's twin behind the real frames, on a pseudo-terminal that ``link`` always names."""
 
@@ -51,6 +55,6 @@ class EmulatedBoard:
             "id": "hhd",
             "model": "hhd",
             "driver": "hapticd_io",
-            "options": {**self.report["options"], "port": str(self.link)},
+            "options": {**self.report["options"], "port": str(self.link), "watchdog_s": WATCHDOG_S},
             **keys,
         }

@@ -19,11 +19,14 @@ pytestmark = pytest.mark.system
 
 SECONDS = 60.0
 CYCLE_S = 4.0
-MISSING_TICKS = 50
+MISSING_TICKS = 200
 STATUS_FRESH = 1 << 4
 
 PATIENT = {"limits.missing_ticks": MISSING_TICKS}
-"""A pseudo-terminal hands bytes over in a kernel worker without priority, which a busy machine holds up."""
+"""A pseudo-terminal hands bytes over in a kernel worker without priority, which a busy machine holds up;
+
+shared machines stand still for 60 ms at times.
+"""
 
 WALL = {
     "id": "back",
@@ -89,7 +92,7 @@ def test_wall_stays_rigid_and_force_never_steps_for_a_minute_over_real_bytes(
     assert judged["contact_depth_m"].max() < 2.5e-3, "the wall gave way"
     released = judged[judged["contact_count"] == 0]
     assert len(released) > 1000
-    assert np.all(released["tip_force_demand_n"] == 0.0), "free space pushed"
+    assert np.abs(released["tip_force_demand_n"]).max() < 1e-9, "free space pushed"
     assert len(judged) > 0.9 * len(ticks), "the machine starved the board"
 
 
