@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 from typing import Any, Self
 
-
 WATCHDOG_S = 0.25
 """Longer than a shared machine stands still."""
 
