@@ -113,7 +113,8 @@ def test_wall_stays_rigid_and_force_never_steps_for_a_minute_over_real_bytes(
 def felt_steps_n(ticks: Ticks) -> Values:
     """Change of the hand's force between frames that follow one another, 1 ms apart."""
     steps: Values = np.linalg.norm(np.diff(ticks["sensor_force_n"], axis=0), axis=1)
-    return steps[np.diff(ticks["observation_seq"]) == 1]
+    following: Values = steps[np.diff(ticks["observation_seq"]) == 1]
+    return following
 
 
 def undisturbed(ticks: Ticks) -> Values:
