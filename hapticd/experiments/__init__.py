@@ -1,0 +1,1 @@
+"""The figures of the two papers as experiments that anyone can run."""
