@@ -70,8 +70,10 @@ class Experiment(Protocol):
 
     ``models`` names the device models whose twin and device parameters ``--set`` reaches by dotted key
     (``twin.hand.mass_kg``, ``drive.lag_s``); none for one that is pure mathematics. ``overrides`` are what
-    the experiment changes in them, and the defaults that ``show`` prints. ``on_device`` says whether it also
-    runs on a device of a running daemon.
+    the experiment changes in them, and the defaults that ``show`` prints; ``uncertain`` are the keys that the
+    papers leave open, which are jittered like the uncertain parameters. A key may name its model
+    (``hhd:twin.hand.mass_kg``), else it means every model that has it. ``on_device`` says whether the
+    experiment also runs on a device of a running daemon.
     """
 
     name: str
@@ -79,6 +81,7 @@ class Experiment(Protocol):
     source: str
     models: tuple[str, ...]
     overrides: Mapping[str, Any]
+    uncertain: tuple[str, ...]
     parameters: tuple[Parameter, ...]
     on_device: bool
 

@@ -1,0 +1,134 @@
+"""One run of an experiment: what it is set to, and what it may use."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from hapticd.experiments.experiment import Experiment, Value
+from hapticd.experiments.model_keys import keys_of_model
+from hapticd.experiments.parallel import parallel_map
+from hapticd.experiments.progress import Progress
+from hapticd.experiments.settings import Settings
+from hapticd.model import Model, load_model
+from hapticd.twin import TwinRun
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+
+class Run:
+    """One run. Equal experiment, settings and seed: equal results to the last digit.
+
+    ``state_dir`` is where a resumable experiment keeps partial results; None when nothing shall be kept.
+    """
+
+    def __init__(
+        self,
+        experiment: Experiment,
+        settings: Settings,
+        seed: int = 1,
+        *,
+        progress: Progress | None = None,
+        state_dir: Path | None = None,
+    ) -> None:
+        self.experiment = experiment
+        self.settings = settings
+        self.seed = seed
+        self.state_dir = state_dir
+        self._progress = progress or Progress()
+
+    @property
+    def parameters(self) -> Mapping[str, Value]:
+        """Every parameter of the experiment, resolved and range-checked."""
+        return self.settings.parameters
+
+    def number(self, name: str) -> float:
+        """The value of a parameter that is a number."""
+        value = self.parameters[name]
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise TypeError(f"The parameter {name} is {value!r}, not a number.")
+        return float(value)
+
+    def integer(self, name: str) -> int:
+        """The value of a parameter that is a whole number."""
+        value = self.parameters[name]
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise TypeError(f"The parameter {name} is {value!r}, not a whole number.")
+        return value
+
+    def flag(self, name: str) -> bool:
+        """The value of a parameter that is true or false."""
+        value = self.parameters[name]
+        if not isinstance(value, bool):
+            raise TypeError(f"The parameter {name} is {value!r}, not true or false.")
+        return value
+
+    def word(self, name: str) -> str:
+        """The value of a parameter that is a word."""
+        value = self.parameters[name]
+        if not isinstance(value, str):
+            raise TypeError(f"The parameter {name} is {value!r}, not a word.")
+        return value
+
+    def vector(self, name: str) -> tuple[float, ...]:
+        """The value of a parameter that is a list of numbers."""
+        value = self.parameters[name]
+        if not isinstance(value, tuple):
+            raise TypeError(f"The parameter {name} is {value!r}, not a list of numbers.")
+        return value
+
+    def overrides(self, model: str) -> dict[str, Any]:
+        """What differs in a device model: the experiment's overrides, and above them what the user set."""
+        return self._layered(model, {})
+
+    def model(self, model: str, overrides: Mapping[str, Any] | None = None) -> Model:
+        """A device model as this run has it. ``overrides`` go above the experiment's, below the user's."""
+        return load_model(model, self._layered(model, overrides or {}))
+
+    def twin(
+        self,
+        model: str,
+        *,
+        rate_hz: float = 1000.0,
+        seed: int | None = None,
+        overrides: Mapping[str, Any] | None = None,
+    ) -> TwinRun:
+        """A twin as this run has it, seeded by the run unless ``seed`` says otherwise."""
+        layered = self._layered(model, overrides or {})
+        return TwinRun(model, rate_hz=rate_hz, seed=self.seed if seed is None else seed, overrides=layered)
+
+    def rng(self, purpose: str = "") -> np.random.Generator:
+        """Random numbers from the seed; each purpose has its own, whatever the others draw."""
+        return np.random.default_rng([self.seed, zlib.crc32(purpose.encode())])
+
+    def progress(self, fraction: float, doing: str) -> None:
+        """Tells how far the run is, 0…1. ``Cancelled`` once nobody wants it."""
+        self._progress.tell(fraction, doing)
+
+    def map(
+        self,
+        function: Callable[[Item], Result],
+        items: Iterable[Item],
+        *,
+        doing: str = "simulating",
+        until: float = 1.0,
+    ) -> list[Result]:
+        """``function`` of every item, on all cores, in their order. Progress rises to ``until``.
+
+        Deterministic where ``function`` depends on its item alone. ``Cancelled`` once nobody wants the run.
+        """
+        begin = self._progress.fraction
+
+        def each(done: int, total: int) -> None:
+            self._progress.tell(begin + (until - begin) * done / total, f"{doing}, {done} of {total}")
+
+        return parallel_map(function, items, each)
+
+    def _layered(self, model: str, overrides: Mapping[str, Any]) -> dict[str, Any]:
+        fixed = keys_of_model(self.experiment.overrides, model, self.experiment.models)
+        return {**fixed, **overrides, **self.settings.overrides.get(model, {})}
