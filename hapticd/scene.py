@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, Strict, field_validator, model_validator
 
+from hapticd.flat_wall import rigid_plane, wall_key
 from hapticd.problem import Problem
 
 MAX_WALLS = 256
@@ -196,4 +197,4 @@ def _flat_wall(wall: Wall) -> dict[str, Any]:
     length = math.hypot(*wall.shape.normal)
     normal = [component / length for component in wall.shape.normal]
     offset_m = sum(n * p for n, p in zip(normal, wall.shape.point_m, strict=True))
-    return {"normal": padded(normal), "offset_m": offset_m, "eta": wall.law.eta}
+    return rigid_plane(padded(normal), offset_m, eta=wall.law.eta, key=wall_key(wall.id))

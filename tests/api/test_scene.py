@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import httpx
 
+from hapticd.flat_wall import rigid_plane, wall_key
 from tests.api.conftest import Rig
 from tests.api.documents import floor
 from tests.api.test_problems import problem_of
@@ -30,7 +31,7 @@ async def test_write_tells_the_tick_and_the_new_revision(http: httpx.AsyncClient
     assert response.headers["etag"] == result["etag"] == f'"{result["revision"]}"'
     sent = rig.servos["phantom"].requests[-1]["scene"]
     assert sent["revision"] == result["revision"]
-    assert sent["walls"] == [{"normal": [0.0, 0.0, 1.0], "offset_m": -0.02, "eta": 0.0}]
+    assert sent["walls"] == [rigid_plane([0.0, 0.0, 1.0], -0.02, key=wall_key("floor"))]
 
 
 async def test_second_put_replaces_and_says_so(http: httpx.AsyncClient) -> None:

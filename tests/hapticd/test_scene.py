@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from hapticd import _core
+from hapticd.flat_wall import rigid_plane, wall_key
 from hapticd.model import load_model
 from hapticd.problem import Problem, invalid_document
 from hapticd.scene import MAX_WALLS, Scene, Wall, check_scene, edit_fade_s, flatten
@@ -122,11 +123,13 @@ def test_normal_off_by_rounding_reaches_the_loop_at_unit_length(
     scene = Scene.model_validate({"walls": [wall(shape=plane(list(point), normal))]})
     flat, _ = flatten(scene, 1, 0.0)
     sent = flat["walls"][0]
-    assert math.isclose(math.hypot(*sent["normal"]), 1.0, abs_tol=1e-12)
-    assert sent["normal"][2] == 0.0
+    assert math.isclose(math.hypot(*sent["shape"]["normal"]), 1.0, abs_tol=1e-12)
+    assert sent["shape"]["normal"][2] == 0.0
     # The plane still goes through its point.
     assert math.isclose(
-        sent["normal"][0] * point[0] + sent["normal"][1] * point[1], sent["offset_m"], abs_tol=1e-12
+        sent["shape"]["normal"][0] * point[0] + sent["shape"]["normal"][1] * point[1],
+        sent["shape"]["offset_m"],
+        abs_tol=1e-12,
     )
 
 
@@ -152,8 +155,8 @@ def test_flat_scene_holds_enabled_walls_in_order_with_their_ids() -> None:
         "stiffness": "workspace",
         "allocation": "brake_only",
         "walls": [
-            {"normal": [0.0, 0.0, 1.0], "offset_m": -0.02, "eta": 0.0},
-            {"normal": [0.0, 0.0, 1.0], "offset_m": -0.02, "eta": 0.5},
+            rigid_plane([0.0, 0.0, 1.0], -0.02, key=wall_key("a")),
+            rigid_plane([0.0, 0.0, 1.0], -0.02, eta=0.5, key=wall_key("c")),
         ],
     }
 

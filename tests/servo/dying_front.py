@@ -10,9 +10,10 @@ import json
 import sys
 
 from hapticd import _core
+from hapticd.flat_wall import rigid_plane
 from tests.servo.rig import enable
 
-WALL = {"normal": [0.0, 0.0, 1.0], "offset_m": -0.5, "eta": 0.0}
+WALL = rigid_plane([0.0, 0.0, 1.0], -0.5)
 
 
 def main(region: str) -> None:

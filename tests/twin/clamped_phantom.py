@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hapticd.flat_wall import rigid_plane
 from hapticd.twin import TwinRun
 
 Vector = NDArray[np.float64]
@@ -41,7 +42,7 @@ class ClampedPhantom:
 
     def press(self, n: Vector, depth_m: float) -> NDArray[Any]:
         """Records of the last 0.1 s after the tip was pressed ``depth_m`` into a wall at the start."""
-        wall = {"normal": n.tolist(), "offset_m": float(n @ self.home), "eta": 0.0}
+        wall = rigid_plane(n.tolist(), float(n @ self.home))
         self.run.scene({"mapping": self.mapping, "walls": [wall]})
         return self._clamp(self.home - depth_m * n)[-100:]
 

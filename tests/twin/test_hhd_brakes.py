@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hapticd.flat_wall import rigid_plane
 from hapticd.twin import TwinRun
 
 QUIET = {
@@ -30,7 +31,7 @@ MOVING_M_PER_S = 0.05
 def compressed_and_released(overrides: dict[str, Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Records of a clamp that moves the tip 20 mm into a soft wall with normal −y, and out again."""
     run = TwinRun("hhd", overrides=overrides)
-    run.scene({"walls": [{"normal": [0, -1, 0], "offset_m": -0.2, "eta": 0.98}]})
+    run.scene({"walls": [rigid_plane([0, -1, 0], -0.2, eta=0.98)]})
     run.enable()
     run.hand({"type": "clamp", "position_m": [0.0, 0.18, 0.0]})
     run.run(1.5)
@@ -84,8 +85,8 @@ def test_no_brake_is_asked_for_torque_in_its_direction_of_motion() -> None:
     # Law 7 in closed loop: through a corner, with a swinging hand, on the imperfect device.
     run = TwinRun("hhd")
     walls = [
-        {"normal": [0.0, 1.0, 0.0], "offset_m": 0.19, "eta": 0.5},
-        {"normal": [-0.6, 0.8, 0.0], "offset_m": 0.14, "eta": 0.8},
+        rigid_plane([0.0, 1.0, 0.0], 0.19, eta=0.5),
+        rigid_plane([-0.6, 0.8, 0.0], 0.14, eta=0.8, key=2),
     ]
     run.scene({"walls": walls})
     run.enable()

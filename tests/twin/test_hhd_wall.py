@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from hapticd.flat_wall import rigid_plane
 from hapticd.twin import TwinRun
 
 SURFACE_M = 0.18
@@ -24,7 +25,7 @@ class Wall:
         self.run = TwinRun(
             "hhd", overrides={key.replace("__", "."): value for key, value in overrides.items()}
         )
-        wall = {"normal": [0, 1, 0], "offset_m": SURFACE_M, "eta": 0.0}
+        wall = rigid_plane([0, 1, 0], SURFACE_M)
         self.run.scene({"allocation": allocation, "walls": [wall]})
         self.run.enable()
         self.run.run(0.5)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from hapticd.flat_wall import rigid_plane
 from hapticd.twin import TwinRun
 from tests.twin.clamped_phantom import IDEAL, normal
 
@@ -16,7 +17,7 @@ def pushed(n: NDArray[np.float64], force_n: float, *, eta: float = 0.0, **scene:
     """True depth in a wall at the tip under a steady push against it, m, and the last record."""
     run = TwinRun("phantom-1.0", overrides=IDEAL)
     surface_m = float(n @ run.truth()["tip_position_m"])
-    run.scene({**scene, "walls": [{"normal": n.tolist(), "offset_m": surface_m, "eta": eta}]})
+    run.scene({**scene, "walls": [rigid_plane(n.tolist(), surface_m, eta=eta)]})
     run.enable()
     run.hand({"type": "push", "direction": (-n).tolist(), "force_n": force_n})
     last = run.run(3.0)[-1]

@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hapticd import _core
+from hapticd.flat_wall import rigid_plane
 from hapticd.twin import Refused, TwinRun
 
 MODELS = ["phantom-1.0", "hhd"]
@@ -16,7 +17,7 @@ def wall_below(run: TwinRun, axis: int, depth_m: float) -> dict[str, Any]:
     """A rigid wall whose surface is ``depth_m`` above the tip along an axis."""
     n = np.eye(3)[axis]
     surface_m = float(n @ run.truth()["tip_position_m"]) + depth_m
-    return {"walls": [{"normal": n.tolist(), "offset_m": surface_m, "eta": 0.0}], "fade_s": 0.1}
+    return {"walls": [rigid_plane(n.tolist(), surface_m)], "fade_s": 0.1}
 
 
 def eventful(model: str, seed: int) -> NDArray[Any]:

@@ -5,7 +5,7 @@ use hapticd_control::io::{status, Exchange, Observation};
 use hapticd_control::linear::V3;
 use hapticd_control::model::DeviceModel;
 use hapticd_control::record::TickRecord;
-use hapticd_control::scene::Scene;
+use hapticd_control::scene::{Scene, Wall};
 use std::time::Instant;
 
 const TICKS: u64 = 200_000;
@@ -28,9 +28,8 @@ fn cage(model: &DeviceModel) -> Scene {
         let angle = i as f64 * core::f64::consts::TAU / WALLS as f64;
         let normal = V3::new(angle.cos(), angle.sin(), 0.0);
         let depth_m = 0.001 - 0.0005 * (i % 4) as f64;
-        wall.normal = normal.into();
-        wall.offset_m = home.dot(&normal) + depth_m;
-        wall.eta = 0.05 * (i % 8) as f64;
+        let eta = 0.05 * (i % 8) as f64;
+        *wall = Wall::plane(i as u64, normal.into(), home.dot(&normal) + depth_m, eta);
     }
     scene
 }

@@ -1,7 +1,7 @@
 //! Which walls the tip is in.
 
+use crate::facing::Facing;
 use crate::linear::V3;
-use crate::scene::Wall;
 
 /// What the tip touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,23 +26,17 @@ impl Contact {
     };
 }
 
-/// Depth of `x`, m, in the wall: positive inside.
-#[must_use]
-pub fn depth_m(wall: &Wall, x: &V3) -> f64 {
-    wall.offset_m - V3::from(wall.normal).dot(x)
-}
-
 /// The walls that contain the tip `x`, m.
 #[must_use]
-pub fn contact(walls: &[Wall], x: &V3) -> Contact {
+pub fn contact(walls: &[Facing], x: &V3) -> Contact {
     let mut found = Contact::FREE;
-    for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.eta < 1.0) {
-        let depth_m = depth_m(wall, x);
+    for wall in walls.iter().filter(|wall| wall.eta < 1.0) {
+        let depth_m = wall.depth_m(x);
         if depth_m > 0.0 {
             found.count += 1;
         }
         if depth_m > found.depth_m {
-            found.wall = index;
+            found.wall = wall.wall;
             found.depth_m = depth_m;
             found.normal = wall.normal.into();
         }

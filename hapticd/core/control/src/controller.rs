@@ -56,7 +56,7 @@ impl Controller {
     pub fn new(model: &DeviceModel, rate_hz: f64) -> Result<Self, ModelError> {
         check(model, rate_hz)?;
         let period_s = rate_hz.recip();
-        let renderer = Renderer::new(model);
+        let mut renderer = Renderer::new(model);
         let stage = Stage::new(model, period_s);
         let home = V3::from(model.joints.home_rad);
         let pose = JointState::at(&model.kinematics, home, V3::zeros());

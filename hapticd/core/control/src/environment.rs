@@ -1,8 +1,7 @@
 //! The quasi-static motion environment: where the walls want the tip (WN §IV, V).
 
-use crate::contact::depth_m;
+use crate::facing::Facing;
 use crate::linear::{M3, V3};
-use crate::scene::Wall;
 
 /// Smallest η used. A rigid wall yields by this fraction of the depth, 1 nm at 10 mm, and in
 /// exchange duplicates, contradictions and hundreds of walls stay well posed.
@@ -41,7 +40,7 @@ pub struct SetPoint {
 /// whose pull x_Sd − x is the gradient of a potential and never stiffer than one rigid wall.
 /// ẋ_Sd = ∂x_Sd/∂x · ẋ. Walls with η ≥ 1 are free space.
 #[must_use]
-pub fn set_point(walls: &[Wall], x: &V3, xd: &V3) -> SetPoint {
+pub fn set_point(walls: &[Facing], x: &V3, xd: &V3) -> SetPoint {
     let proximal = proximal(walls, x);
     SetPoint {
         x_sd: x + proximal.shift,
@@ -51,7 +50,7 @@ pub fn set_point(walls: &[Wall], x: &V3, xd: &V3) -> SetPoint {
 
 /// Newton's method on the piecewise quadratic objective. Each step minimises over the walls
 /// active where it is; it ends when that minimum is where it already is.
-fn proximal(walls: &[Wall], x: &V3) -> Proximal {
+fn proximal(walls: &[Facing], x: &V3) -> Proximal {
     let mut shift = V3::zeros();
     let mut view = View::at(walls, x, &shift);
     for _ in 0..NEWTON_STEPS {
@@ -79,7 +78,7 @@ struct View {
 }
 
 impl View {
-    fn at(walls: &[Wall], x: &V3, shift: &V3) -> Self {
+    fn at(walls: &[Facing], x: &V3, shift: &V3) -> Self {
         let free = Self {
             objective: 0.5 * shift.norm_squared(),
             minimum: Proximal::FREE,
@@ -128,11 +127,11 @@ struct Active {
     variance: f64,
 }
 
-fn active<'a>(walls: &'a [Wall], x: &'a V3, shift: &'a V3) -> impl Iterator<Item = Active> + 'a {
+fn active<'a>(walls: &'a [Facing], x: &'a V3, shift: &'a V3) -> impl Iterator<Item = Active> + 'a {
     let solid = walls.iter().filter(|wall| wall.eta < 1.0);
     solid.filter_map(move |wall| {
         let n = V3::from(wall.normal);
-        let depth = depth_m(wall, x);
+        let depth = wall.depth_m(x);
         let violation = depth - n.dot(shift);
         let eta = wall.eta.max(ETA_MIN);
         (violation > 0.0).then(|| Active {
@@ -146,7 +145,7 @@ fn active<'a>(walls: &'a [Wall], x: &'a V3, shift: &'a V3) -> impl Iterator<Item
 
 /// Share of a step that reaches the minimum along it, by Newton's method within a bracket. Only
 /// needed where the full step would not lower the objective; it rules out cycles of active sets.
-fn step_length(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> f64 {
+fn step_length(walls: &[Facing], x: &V3, shift: &V3, step: &V3) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     let mut t = 1.0;
     for _ in 0..SEARCH_STEPS {
@@ -171,7 +170,7 @@ fn step_length(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> f64 {
 }
 
 /// First and second derivative of the objective along `step`.
-fn line(walls: &[Wall], x: &V3, shift: &V3, step: &V3) -> (f64, f64) {
+fn line(walls: &[Facing], x: &V3, shift: &V3, step: &V3) -> (f64, f64) {
     let free = (shift.dot(step), step.norm_squared());
     active(walls, x, shift).fold(free, |(slope, curvature), wall| {
         let rate = wall.n.dot(step);

@@ -1,5 +1,8 @@
 //! Cross-fade of scenes: an edit never steps the set-point.
 
+use crate::facing::Facings;
+use crate::linear::V3;
+use crate::proxy::Proxy;
 use crate::scene::Scene;
 
 /// Scenes that fade at the same time at most.
@@ -32,6 +35,8 @@ impl Layer {
 #[derive(Clone, Debug)]
 pub struct Layers {
     scenes: [Scene; MAX_LAYERS],
+    /// One per scene.
+    proxies: [Proxy; MAX_LAYERS],
     stack: [Layer; MAX_LAYERS],
     count: usize,
 }
@@ -53,6 +58,7 @@ impl Layers {
         };
         Self {
             scenes: [Scene::default(); MAX_LAYERS],
+            proxies: core::array::from_fn(|_| Proxy::default()),
             stack: [bottom; MAX_LAYERS],
             count: 1,
         }
@@ -97,13 +103,30 @@ impl Layers {
         self.drop_covered();
     }
 
-    /// Each scene with its weight, newest first.
-    pub fn weighted(&self) -> impl Iterator<Item = (f64, &Scene)> {
+    /// Lets the proxies of all scenes follow the tip to `x`, m. `soften` fills in how much of a
+    /// penetration each surface lets pass.
+    pub fn follow(&mut self, x: &V3, soften: impl Fn(&Scene, &mut Facings)) {
+        for layer in &self.stack[..self.count] {
+            let (scene, proxy) = (&self.scenes[layer.slot], &mut self.proxies[layer.slot]);
+            proxy.follow(scene.walls(), x);
+            soften(scene, proxy.facings_mut());
+        }
+    }
+
+    /// The surfaces of the newest scene that face the tip.
+    #[must_use]
+    pub fn top_facings(&self) -> &Facings {
+        self.proxies[self.stack[self.count - 1].slot].facings()
+    }
+
+    /// Each scene with its weight and the surfaces that face the tip, newest first.
+    pub fn weighted(&self) -> impl Iterator<Item = (f64, &Scene, &Facings)> {
         let mut uncovered = 1.0;
         self.stack[..self.count].iter().rev().map(move |layer| {
             let weight = uncovered * layer.cover();
             uncovered -= weight;
-            (weight, &self.scenes[layer.slot])
+            let slot = layer.slot;
+            (weight, &self.scenes[slot], self.proxies[slot].facings())
         })
     }
 
@@ -118,7 +141,7 @@ impl Layers {
 
     fn drop_lightest(&mut self) {
         let mut lightest = (0, f64::INFINITY);
-        for (above, (weight, _)) in self.weighted().enumerate() {
+        for (above, (weight, _, _)) in self.weighted().enumerate() {
             if weight < lightest.1 {
                 lightest = (self.count - 1 - above, weight);
             }

@@ -4,6 +4,8 @@ use crate::contact::{contact, Contact};
 use crate::couple::{dc_stiffness, spring_demand, torque_demand, JointDemand};
 use crate::environment::{set_point, SetPoint};
 use crate::estimate::JointState;
+use crate::facing::Facings;
+use crate::law::eta;
 use crate::layers::Layers;
 use crate::linear::V3;
 use crate::mapping::{isotropic_stiffness, joint_set_point, workspace_stiffness, JointSetPoint};
@@ -70,33 +72,28 @@ impl Renderer {
 
     /// Renders the scenes at `state`, with residual resistances `dr_ohm`, Ω, of a spring drive.
     #[must_use]
-    pub fn render(&self, state: &JointState, dr_ohm: &V3) -> Rendering {
-        let contact = contact(self.layers.top().walls(), &state.x);
-        match &self.drive {
-            DriveModel::Spring(drive) => {
-                self.spring(&never_stiffer(drive, dr_ohm), state, dr_ohm, contact)
-            }
-            DriveModel::Torque(drive) => self.torque(drive, state, contact),
+    pub fn render(&mut self, state: &JointState, dr_ohm: &V3) -> Rendering {
+        match self.drive {
+            DriveModel::Spring(drive) => self.spring(&never_stiffer(&drive, dr_ohm), state, dr_ohm),
+            DriveModel::Torque(drive) => self.torque(&drive, state),
         }
     }
 
     /// Scenes are blended in joint set-points, each with its own mapping and stiffness: the
     /// weights are convex, so that no joint is stiffer than in the stiffest scene (law 6).
-    fn spring(
-        &self,
-        drive: &SpringDriveModel,
-        state: &JointState,
-        dr_ohm: &V3,
-        contact: Contact,
-    ) -> Rendering {
+    fn spring(&mut self, drive: &SpringDriveModel, state: &JointState, dr_ohm: &V3) -> Rendering {
         let k_q = dc_stiffness(drive, dr_ohm);
         let pose_n_per_m = isotropic_stiffness(&state.jacobian, &k_q);
+        let workspace_n_per_m = self.workspace_n_per_m;
+        self.layers.follow(&state.x, |scene, facings| {
+            soften(scene, facings, k_c(scene, workspace_n_per_m, pose_n_per_m));
+        });
         let mut tip = Blend::default();
         let mut joints = JointSetPoint::default();
         let mut stiffness_n_per_m = 0.0;
-        for (weight, scene) in self.layers.weighted() {
-            let k_c = self.stiffness_n_per_m(scene, pose_n_per_m);
-            let set_point = set_point(scene.walls(), &state.x, &state.xd);
+        for (weight, scene, facings) in self.layers.weighted() {
+            let k_c = k_c(scene, workspace_n_per_m, pose_n_per_m);
+            let set_point = set_point(facings.as_slice(), &state.x, &state.xd);
             let mapped = joint_set_point(
                 scene.mapping,
                 &self.kinematics,
@@ -111,32 +108,45 @@ impl Renderer {
             stiffness_n_per_m += weight * k_c;
         }
         Rendering {
-            contact,
+            contact: self.contact(state),
             set_point: tip.0,
             stiffness_n_per_m,
             demand: spring_demand(drive, state, &joints, dr_ohm),
         }
     }
 
-    fn torque(&self, drive: &TorqueDriveModel, state: &JointState, contact: Contact) -> Rendering {
+    fn torque(&mut self, drive: &TorqueDriveModel, state: &JointState) -> Rendering {
+        self.layers.follow(&state.x, |scene, facings| {
+            soften(scene, facings, drive.stiffness_n_per_m);
+        });
         let mut tip = Blend::default();
-        for (weight, scene) in self.layers.weighted() {
-            tip.add(weight, &set_point(scene.walls(), &state.x, &state.xd));
+        for (weight, _, facings) in self.layers.weighted() {
+            tip.add(weight, &set_point(facings.as_slice(), &state.x, &state.xd));
         }
         Rendering {
-            contact,
+            contact: self.contact(state),
             set_point: tip.0,
             stiffness_n_per_m: drive.stiffness_n_per_m,
             demand: torque_demand(drive, state, &tip.0.x_sd, &tip.0.xd_sd),
         }
     }
 
-    /// k_c of a scene (WN §V after eq. 29): never above the bound of this pose.
-    fn stiffness_n_per_m(&self, scene: &Scene, pose_n_per_m: f64) -> f64 {
-        match scene.stiffness {
-            StiffnessScope::Pose => pose_n_per_m,
-            StiffnessScope::Workspace => self.workspace_n_per_m.min(pose_n_per_m),
-        }
+    fn contact(&self, state: &JointState) -> Contact {
+        contact(self.layers.top_facings().as_slice(), &state.x)
+    }
+}
+
+/// k_c of a scene (WN §V after eq. 29): never above the bound of this pose.
+fn k_c(scene: &Scene, workspace_n_per_m: f64, pose_n_per_m: f64) -> f64 {
+    match scene.stiffness {
+        StiffnessScope::Pose => pose_n_per_m,
+        StiffnessScope::Workspace => workspace_n_per_m.min(pose_n_per_m),
+    }
+}
+
+fn soften(scene: &Scene, facings: &mut Facings, k_c: f64) {
+    for facing in facings.as_mut_slice() {
+        facing.eta = eta(&scene.walls()[facing.wall].law, k_c);
     }
 }
 

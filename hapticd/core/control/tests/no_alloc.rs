@@ -28,11 +28,9 @@ fn scene(dof: usize, mapping: Mapping) -> Scene {
         let angle = i as f64 * core::f64::consts::TAU / 16.0;
         let out_of_plane = if dof == 3 { 0.6 } else { 0.0 };
         let in_plane = f64::sqrt(1.0 - out_of_plane * out_of_plane);
-        *wall = Wall {
-            normal: [in_plane * angle.cos(), in_plane * angle.sin(), out_of_plane],
-            offset_m: 0.21 * in_plane * angle.sin(),
-            eta: i as f64 / 20.0,
-        };
+        let normal = [in_plane * angle.cos(), in_plane * angle.sin(), out_of_plane];
+        let offset_m = 0.21 * in_plane * angle.sin();
+        *wall = Wall::plane(i as u64, normal, offset_m, i as f64 / 20.0);
     }
     scene
 }

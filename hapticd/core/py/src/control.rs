@@ -5,16 +5,16 @@ mod estimator;
 mod kinematics;
 
 use hapticd_control::environment::{self, SetPoint};
+use hapticd_control::facing::Facing;
 use hapticd_control::io::Axes;
 use hapticd_control::linear::{self, M3, V3};
 use hapticd_control::model::DeviceModel;
-use hapticd_control::scene::Wall;
 use hapticd_control::{contact, mapping};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// A 3×3 matrix by rows.
-type Rows = [Axes; 3];
+pub(crate) type Rows = [Axes; 3];
 
 /// Adds this module's names to `hapticd._core`.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -38,7 +38,7 @@ fn lambda_max_sym(matrix: Rows) -> f64 {
 #[pyfunction]
 #[pyo3(name = "contact")]
 fn find_contact(walls: Vec<(Axes, f64, f64)>, x: Axes) -> (usize, Option<usize>, f64, Axes) {
-    let found = contact::contact(&scene_walls(&walls), &V3::from(x));
+    let found = contact::contact(&facings(&walls), &V3::from(x));
     let wall = (found.count > 0).then_some(found.wall);
     (found.count, wall, found.depth_m, found.normal.into())
 }
@@ -47,7 +47,7 @@ fn find_contact(walls: Vec<(Axes, f64, f64)>, x: Axes) -> (usize, Option<usize>,
 #[pyfunction]
 fn set_point(walls: Vec<(Axes, f64, f64)>, x: Axes, xd: Axes) -> (Axes, Axes) {
     let SetPoint { x_sd, xd_sd } =
-        environment::set_point(&scene_walls(&walls), &V3::from(x), &V3::from(xd));
+        environment::set_point(&facings(&walls), &V3::from(x), &V3::from(xd));
     (x_sd.into(), xd_sd.into())
 }
 
@@ -57,20 +57,21 @@ fn isotropic_stiffness(jacobian: Rows, k_q: Axes) -> f64 {
     mapping::isotropic_stiffness(&from_rows(&jacobian), &V3::from(k_q))
 }
 
-fn scene_walls(walls: &[(Axes, f64, f64)]) -> Vec<Wall> {
-    let wall = |&(normal, offset_m, eta): &(Axes, f64, f64)| Wall {
+fn facings(walls: &[(Axes, f64, f64)]) -> Vec<Facing> {
+    let facing = |(wall, &(normal, offset_m, eta)): (usize, &(Axes, f64, f64))| Facing {
+        wall,
         normal,
         offset_m,
         eta,
     };
-    walls.iter().map(wall).collect()
+    walls.iter().enumerate().map(facing).collect()
 }
 
 fn from_rows(rows: &Rows) -> M3 {
     M3::from_fn(|row, column| rows[row][column])
 }
 
-fn to_rows(matrix: &M3) -> Rows {
+pub(crate) fn to_rows(matrix: &M3) -> Rows {
     matrix.transpose().into()
 }
 
@@ -78,6 +79,6 @@ pub(crate) fn device_model(device_json: &str) -> PyResult<DeviceModel> {
     serde_json::from_str(device_json).map_err(value_error)
 }
 
-fn value_error(error: impl std::fmt::Display) -> PyErr {
+pub(crate) fn value_error(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }

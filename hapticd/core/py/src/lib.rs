@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 mod control;
 mod driver;
 mod front;
+mod linkage;
 mod parking;
 mod safety;
 mod schema;
@@ -18,6 +19,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     safety::register(module)?;
     control::register(module)?;
     twin::register(module)?;
+    linkage::register(module)?;
     front::register(module)?;
     servo::register(module)?;
     Ok(())

@@ -31,4 +31,5 @@ pub mod status;
 pub mod sync;
 pub mod text;
 pub mod twin_driver;
+pub mod wall;
 pub mod watch;

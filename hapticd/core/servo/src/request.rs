@@ -1,22 +1,18 @@
 //! Requests of the front: words in the mailbox. Checked again here, for the loop trusts nobody.
 
 use crate::codec::{Decoder, Encoder};
+use crate::wall::{self, WALL_WORDS};
 use hapticd_control::fault::FaultSet;
-use hapticd_control::io::Axes;
-use hapticd_control::scene::{Allocation, Mapping, Scene, StiffnessScope, Wall, MAX_WALLS};
+use hapticd_control::scene::{Allocation, Mapping, Scene, StiffnessScope, MAX_WALLS};
 use hapticd_control::state::Event;
 use hapticd_twin::script::SCRIPT_WORDS;
 use hapticd_twin::{Injection, Script};
 
 const ENVELOPE_WORDS: usize = 3;
 const SCENE_HEAD_WORDS: usize = 6;
-const WALL_WORDS: usize = 5;
 
 /// Words of the longest request.
 pub const REQUEST_WORDS: usize = ENVELOPE_WORDS + SCENE_HEAD_WORDS + MAX_WALLS * WALL_WORDS;
-
-/// How far a wall's normal may be from unit length.
-const UNIT_TOLERANCE: f64 = 1e-3;
 
 /// What the front asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,15 +65,7 @@ impl Request {
 
 fn scene_is_valid(scene: &Scene) -> bool {
     let fade_valid = scene.fade_s.is_finite() && scene.fade_s >= 0.0;
-    fade_valid && scene.count <= MAX_WALLS && scene.walls().iter().all(wall_is_valid)
-}
-
-fn wall_is_valid(wall: &Wall) -> bool {
-    let length = wall.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
-    // Written so that a NaN fails.
-    (length - 1.0).abs() <= UNIT_TOLERANCE
-        && wall.offset_m.is_finite()
-        && (0.0..=1.0).contains(&wall.eta)
+    fade_valid && scene.count <= MAX_WALLS && scene.walls().iter().all(wall::is_valid)
 }
 
 impl Envelope {
@@ -171,10 +159,7 @@ fn encode_scene(scene: &Scene, encoder: &mut Encoder<'_>) {
         .word(scene.allocation as u64)
         .word(scene.walls().len() as u64);
     for wall in scene.walls() {
-        encoder
-            .numbers(&wall.normal)
-            .number(wall.offset_m)
-            .number(wall.eta);
+        wall::encode(wall, encoder);
     }
 }
 
@@ -189,18 +174,9 @@ fn decode_scene(decoder: &mut Decoder<'_>) -> Option<Scene> {
     };
     scene.count = usize::try_from(decoder.word()?).ok()?;
     for wall in scene.walls.get_mut(..scene.count)? {
-        *wall = decode_wall(decoder)?;
+        *wall = wall::decode(decoder)?;
     }
     Some(scene)
-}
-
-fn decode_wall(decoder: &mut Decoder<'_>) -> Option<Wall> {
-    let normal: Axes = decoder.axes()?;
-    Some(Wall {
-        normal,
-        offset_m: decoder.number()?,
-        eta: decoder.number()?,
-    })
 }
 
 fn mapping_of(word: u64) -> Option<Mapping> {

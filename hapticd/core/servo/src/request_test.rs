@@ -1,6 +1,58 @@
 use super::*;
 use crate::document::parse;
+use hapticd_control::io::Axes;
+use hapticd_control::scene::{CubicForm, Law, Shape, Wall};
 use proptest::prelude::*;
+
+/// One of the shapes; its numbers differ, so that none can take the place of another.
+fn shape(kind: u64, normal: Axes, size: f64) -> Shape {
+    let (hollow, radius_m) = (kind & 4 != 0, size.abs());
+    let [a, b] = [[size, 0.1, 0.2], [0.3, size, 0.4]];
+    match kind % 4 {
+        0 => Shape::Plane {
+            normal,
+            offset_m: size,
+        },
+        1 => Shape::Sphere {
+            center_m: a,
+            radius_m,
+            hollow,
+        },
+        2 => Shape::Box {
+            center_m: a,
+            axes: [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+            half_m: [radius_m, 0.5, 0.6],
+            hollow,
+        },
+        _ => Shape::Capsule {
+            from_m: a,
+            to_m: b,
+            radius_m,
+            hollow,
+        },
+    }
+}
+
+fn law(kind: u64, size: f64) -> Law {
+    match kind / 8 % 5 {
+        0 => Law::Motion { eta: size },
+        1 => Law::Spring {
+            stiffness_n_per_m: size,
+            damping_n_s_per_m: 2.0 * size,
+        },
+        2 => Law::Damper {
+            damping_n_s_per_m: size,
+        },
+        3 => Law::CubicDamper {
+            coefficient_n_s3_per_m3: size,
+            form: CubicForm::Implicit,
+        },
+        _ => Law::CubicDamper {
+            coefficient_n_s3_per_m3: size,
+            form: CubicForm::Explicit,
+        },
+    }
+}
 
 fn wall() -> impl Strategy<Value = Wall> {
     (
@@ -8,13 +60,16 @@ fn wall() -> impl Strategy<Value = Wall> {
         -1.0..1.0f64,
         -1.0..1.0f64,
         0.0..=1.0f64,
+        any::<u64>(),
     )
-        .prop_map(|(azimuth, height, offset_m, eta)| {
+        .prop_map(|(azimuth, height, offset_m, eta, kind)| {
             let radius = (1.0 - height * height).sqrt();
+            let normal = [radius * azimuth.cos(), radius * azimuth.sin(), height];
             Wall {
-                normal: [radius * azimuth.cos(), radius * azimuth.sin(), height],
-                offset_m,
-                eta,
+                shape: shape(kind, normal, offset_m),
+                law: law(kind, eta),
+                passivity: eta < 0.5,
+                ..Wall::plane(kind, normal, offset_m, eta)
             }
         })
 }
@@ -81,7 +136,7 @@ fn every_kind_of_request_survives_its_words() {
         r#"{"type":"inject","injection":{"type":"silence","duration_s":0.5}}"#,
         r#"{"type":"stop"}"#,
         r#"{"type":"scene","epoch":3,"scene":{"revision":7,"fade_s":0.2,"mapping":"inverse","stiffness":"pose",
-            "allocation":"brake_only","walls":[{"normal":[0,0,1],"offset_m":-0.02,"eta":0.5}]}}"#,
+            "allocation":"brake_only","walls":[{"key":1,"shape":{"type":"plane","normal":[0,0,1],"offset_m":-0.02},"law":{"type":"motion","eta":0.5}}]}}"#,
     ];
     for (id, document) in (1..).zip(documents) {
         let (request, epoch) = parse(document).unwrap();
@@ -105,16 +160,42 @@ fn documents_that_make_no_sense_are_refused() {
         r#"{"type":"desired","desired":"broken"}"#.into(),
         r#"{"type":"stop","epoch":-1}"#.into(),
         r#"{"type":"hand","script":{"type":"push","direction":[0,0,0],"force_n":1}}"#.into(),
-        scene(r#"{"normal":[0,0,0],"offset_m":0,"eta":0}"#),
-        scene(r#"{"normal":[0,0,2],"offset_m":0,"eta":0}"#),
-        scene(r#"{"normal":[0,0,1],"offset_m":0,"eta":1.2}"#),
-        scene(r#"{"normal":[0,0,1],"offset_m":0,"eta":0,"colour":"red"}"#),
-        scene(&[r#"{"normal":[0,0,1],"offset_m":0,"eta":0}"#; MAX_WALLS + 1].join(",")),
+        scene(r#"{"key":1,"shape":{"type":"plane","normal":[0,0,0],"offset_m":0},"law":{"type":"motion","eta":0}}"#),
+        scene(r#"{"key":1,"shape":{"type":"plane","normal":[0,0,2],"offset_m":0},"law":{"type":"motion","eta":0}}"#),
+        scene(r#"{"key":1,"shape":{"type":"plane","normal":[0,0,1],"offset_m":0},"law":{"type":"motion","eta":1.2}}"#),
+        scene(r#"{"key":1,"shape":{"type":"plane","normal":[0,0,1],"offset_m":0},"law":{"type":"motion","eta":0},"colour":"red"}"#),
+        scene(&[r#"{"key":1,"shape":{"type":"plane","normal":[0,0,1],"offset_m":0},"law":{"type":"motion","eta":0}}"#; MAX_WALLS + 1].join(",")),
     ];
     for document in documents {
         assert!(parse(&document).is_err(), "{document}");
     }
 }
+
+const UP: Axes = [0.0, 0.0, 1.0];
+
+/// Each spoils one number of a wall.
+const SPOILERS: [fn(&mut Wall); 8] = [
+    |wall| *wall = Wall::plane(1, [f64::NAN, 0.0, 1.0], 0.0, 0.0),
+    |wall| *wall = Wall::plane(1, UP, f64::INFINITY, 0.0),
+    |wall| *wall = Wall::plane(1, UP, 0.0, f64::NAN),
+    |wall| *wall = Wall::plane(1, UP, 0.0, -0.1),
+    |wall| wall.friction.static_ = f64::NAN,
+    |wall| wall.friction.kinetic = 0.1,
+    |wall| {
+        wall.law = Law::Spring {
+            stiffness_n_per_m: f64::INFINITY,
+            damping_n_s_per_m: 0.0,
+        };
+    },
+    |wall| {
+        wall.shape = Shape::Box {
+            center_m: UP,
+            axes: [UP, UP, UP],
+            half_m: UP,
+            hollow: false,
+        };
+    },
+];
 
 #[test]
 fn a_scene_with_a_nan_is_malformed_even_when_the_words_are_whole() {
@@ -122,13 +203,8 @@ fn a_scene_with_a_nan_is_malformed_even_when_the_words_are_whole() {
         count: 1,
         ..Scene::default()
     };
-    scene.walls[0].normal = [0.0, 0.0, 1.0];
-    for spoil in [
-        |wall: &mut Wall| wall.normal[0] = f64::NAN,
-        |wall: &mut Wall| wall.offset_m = f64::INFINITY,
-        |wall: &mut Wall| wall.eta = f64::NAN,
-        |wall: &mut Wall| wall.eta = -0.1,
-    ] {
+    scene.walls[0] = Wall::plane(1, [0.0, 0.0, 1.0], 0.0, 0.0);
+    for spoil in SPOILERS {
         let mut spoiled = scene;
         spoil(&mut spoiled.walls[0]);
         let request = Request::Scene(spoiled);

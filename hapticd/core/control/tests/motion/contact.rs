@@ -1,5 +1,5 @@
 use crate::walls::{wall, walls};
-use hapticd_control::contact::{contact, depth_m, Contact};
+use hapticd_control::contact::{contact, Contact};
 use hapticd_control::linear::V3;
 use proptest::prelude::*;
 
@@ -9,7 +9,7 @@ proptest! {
         let x = V3::from(x);
         let found = contact(&walls, &x);
         let solid = walls.iter().filter(|wall| wall.eta < 1.0);
-        let deepest = solid.map(|wall| depth_m(wall, &x)).fold(0.0, f64::max);
+        let deepest = solid.map(|wall| wall.depth_m(&x)).fold(0.0, f64::max);
         prop_assert_eq!(found.depth_m, deepest);
         prop_assert_eq!(found.count == 0, found == Contact::FREE);
         if found.count > 0 {

@@ -3,9 +3,9 @@ use crate::walls::walls;
 use hapticd_control::couple::{dc_stiffness, spring_demand, torque_demand, torque_per_volt};
 use hapticd_control::environment::set_point;
 use hapticd_control::estimate::JointState;
+use hapticd_control::facing::Facing;
 use hapticd_control::linear::V3;
 use hapticd_control::mapping::JointSetPoint;
-use hapticd_control::scene::Wall;
 use proptest::prelude::*;
 
 const DR_OHM: V3 = V3::new(0.109, 0.2, 0.05);
@@ -21,7 +21,7 @@ fn hhd_state() -> impl Strategy<Value = JointState> {
 }
 
 /// Walls that stand upright on the HHD's plane, around the middle of its workspace.
-fn upright_walls() -> impl Strategy<Value = Vec<Wall>> {
+fn upright_walls() -> impl Strategy<Value = Vec<Facing>> {
     walls(4).prop_map(|mut walls| {
         for wall in &mut walls {
             let flat = V3::new(wall.normal[0], wall.normal[1] + 1e-3, 0.0).normalize();

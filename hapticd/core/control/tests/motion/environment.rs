@@ -1,29 +1,30 @@
 use crate::walls::{any_wall, unit, wall, walls};
 use hapticd_control::environment::set_point;
+use hapticd_control::facing::Facing;
 use hapticd_control::linear::{M3, V3};
-use hapticd_control::scene::{Wall, MAX_WALLS};
+use hapticd_control::scene::MAX_WALLS;
 use proptest::prelude::*;
 
 fn point() -> impl Strategy<Value = V3> {
     prop::array::uniform3(-0.1..0.1_f64).prop_map(V3::from)
 }
 
-fn x_sd(walls: &[Wall], x: &V3) -> V3 {
+fn x_sd(walls: &[Facing], x: &V3) -> V3 {
     set_point(walls, x, &V3::zeros()).x_sd
 }
 
-fn pull(walls: &[Wall], x: &V3) -> V3 {
+fn pull(walls: &[Facing], x: &V3) -> V3 {
     x_sd(walls, x) - x
 }
 
 /// D, column by column.
-fn derivative(walls: &[Wall], x: &V3) -> M3 {
+fn derivative(walls: &[Facing], x: &V3) -> M3 {
     let column = |i| set_point(walls, x, &V3::ith(i, 1.0)).xd_sd;
     M3::from_columns(&[column(0), column(1), column(2)])
 }
 
 /// Gradient of the envelope's objective at its claimed minimum; zero there and only there.
-fn residual(walls: &[Wall], x: &V3) -> f64 {
+fn residual(walls: &[Facing], x: &V3) -> f64 {
     let z = x_sd(walls, x);
     let solid = walls.iter().filter(|wall| wall.eta < 1.0);
     let push = solid.map(|wall| {
@@ -34,8 +35,8 @@ fn residual(walls: &[Wall], x: &V3) -> f64 {
 }
 
 /// Soft enough for rounding to leave the gradient readable.
-fn soft(walls: &[Wall]) -> Vec<Wall> {
-    let soften = |w: &Wall| Wall {
+fn soft(walls: &[Facing]) -> Vec<Facing> {
+    let soften = |w: &Facing| Facing {
         eta: w.eta.max(0.01),
         ..*w
     };
@@ -58,8 +59,8 @@ proptest! {
 
     #[test]
     fn free_space_returns_the_tip_itself(walls in walls(8), x in point(), xd in point()) {
-        let far: Vec<Wall> = walls.iter().map(|w| Wall { offset_m: -1.0, ..*w }).collect();
-        let free: Vec<Wall> = walls.iter().map(|w| Wall { eta: 1.0, ..*w }).collect();
+        let far: Vec<Facing> = walls.iter().map(|w| Facing { offset_m: -1.0, ..*w }).collect();
+        let free: Vec<Facing> = walls.iter().map(|w| Facing { eta: 1.0, ..*w }).collect();
         for walls in [far, free] {
             let found = set_point(&walls, &x, &xd);
             prop_assert_eq!((found.x_sd, found.xd_sd), (x, xd));
@@ -114,13 +115,13 @@ proptest! {
 }
 
 /// Rigid walls that all leave the origin free.
-fn rigid_room(walls: &[Wall]) -> Vec<Wall> {
-    let solid = |w: &Wall| wall(w.normal.into(), -w.offset_m.abs(), 0.0);
+fn rigid_room(walls: &[Facing]) -> Vec<Facing> {
+    let solid = |w: &Facing| wall(w.normal.into(), -w.offset_m.abs(), 0.0);
     walls.iter().map(solid).collect()
 }
 
 /// The farthest point of a rigid room from the origin in one direction, at most `reach` away.
-fn farthest(room: &[Wall], direction: &V3, reach: f64) -> V3 {
+fn farthest(room: &[Facing], direction: &V3, reach: f64) -> V3 {
     let distance = room.iter().fold(reach, |distance, wall| {
         let closing = -V3::from(wall.normal).dot(direction);
         let depth = -wall.offset_m;
@@ -135,7 +136,7 @@ fn farthest(room: &[Wall], direction: &V3, reach: f64) -> V3 {
 
 /// The projection p of x on a convex room is the point inside it with (x−p)·(y−p) ≤ 0 for every
 /// y inside it.
-fn assert_projection(room: &[Wall], x: &V3, directions: &[V3]) -> Result<(), TestCaseError> {
+fn assert_projection(room: &[Facing], x: &V3, directions: &[V3]) -> Result<(), TestCaseError> {
     let p = x_sd(room, x);
     for wall in room {
         let depth = wall.offset_m - V3::from(wall.normal).dot(&p);
@@ -173,7 +174,7 @@ proptest! {
         directions in prop::collection::vec(unit(), 16),
     ) {
         let tilted = |(tilt, offset): &(V3, f64)| wall((n + 1e-4 * tilt).normalize(), *offset, 0.0);
-        let room: Vec<Wall> = tilts.iter().map(tilted).collect();
+        let room: Vec<Facing> = tilts.iter().map(tilted).collect();
         assert_projection(&room, &x, &directions)?;
     }
 

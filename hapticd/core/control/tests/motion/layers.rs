@@ -15,8 +15,8 @@ fn scene(revision: u64, fade_s: f64) -> Scene {
 fn weight_of(layers: &Layers, revision: u64) -> f64 {
     let own = layers
         .weighted()
-        .filter(|(_, scene)| scene.revision == revision);
-    own.map(|(weight, _)| weight).sum()
+        .filter(|(_, scene, _)| scene.revision == revision);
+    own.map(|(weight, ..)| weight).sum()
 }
 
 /// Ticks to let pass, then an edit with a fade of that many ticks.
@@ -33,9 +33,9 @@ proptest! {
             prop_assert_eq!(layers.top().revision, revision);
             for _ in 0..*ticks {
                 layers.advance(TICK_S);
-                let total: f64 = layers.weighted().map(|(weight, _)| weight).sum();
+                let total: f64 = layers.weighted().map(|(weight, ..)| weight).sum();
                 prop_assert!((total - 1.0).abs() < 1e-12);
-                prop_assert!(layers.weighted().all(|(weight, _)| weight >= 0.0));
+                prop_assert!(layers.weighted().all(|(weight, ..)| weight >= 0.0));
                 prop_assert!(layers.weighted().count() <= MAX_LAYERS);
             }
         }
@@ -87,7 +87,7 @@ proptest! {
 fn storm_of_edits_loses_only_the_lightest_and_still_moves_on() {
     let mut layers = Layers::new();
     for revision in 1..100 {
-        let before: Vec<(f64, u64)> = layers.weighted().map(|(w, s)| (w, s.revision)).collect();
+        let before: Vec<(f64, u64)> = layers.weighted().map(|(w, s, _)| (w, s.revision)).collect();
         let lightest = before.iter().map(|(w, _)| *w).fold(f64::INFINITY, f64::min);
         layers.adopt(&scene(revision, 0.2));
         let kept = |(weight, old): &(f64, u64)| (weight_of(&layers, *old) - weight).abs();

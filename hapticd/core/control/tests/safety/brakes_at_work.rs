@@ -15,11 +15,7 @@ fn with_mode(rig: &mut Rig, allocation: Allocation) {
     let depth_m = 20.0 / torque_drive().stiffness_n_per_m;
     let tip = V3::from(rig.record.tip_position_m);
     let normal = -tip.normalize();
-    let wall = Wall {
-        normal: normal.into(),
-        offset_m: normal.dot(&tip) + depth_m,
-        eta: 0.0,
-    };
+    let wall = Wall::plane(1, normal.into(), normal.dot(&tip) + depth_m, 0.0);
     let scene = Scene {
         allocation,
         ..scene(&[wall], 0.0)

@@ -37,10 +37,8 @@ fn wall() -> impl Strategy<Value = Wall> {
     let offset = -0.25..0.05_f64;
     (vector(1.0), offset, 0.0..1.0_f64)
         .prop_filter("normal has a length", |(normal, ..)| normal.norm() > 0.1)
-        .prop_map(|(normal, offset_m, eta)| Wall {
-            normal: normal.normalize().into(),
-            offset_m,
-            eta,
+        .prop_map(|(normal, offset_m, eta)| {
+            Wall::plane(1, normal.normalize().into(), offset_m, eta)
         })
 }
 

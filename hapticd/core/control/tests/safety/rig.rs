@@ -131,11 +131,7 @@ impl Rig {
     pub fn wall_at(&mut self, depth_m: f64, fade_s: f64) {
         let tip = V3::from(self.record.tip_position_m);
         let normal = -tip.normalize();
-        let wall = Wall {
-            normal: normal.into(),
-            offset_m: normal.dot(&tip) + depth_m,
-            eta: 0.0,
-        };
+        let wall = Wall::plane(1, normal.into(), normal.dot(&tip) + depth_m, 0.0);
         self.controller.adopt(&scene(&[wall], fade_s));
     }
 

@@ -201,11 +201,7 @@ fn wall_put_around_the_tool_without_a_fade_is_slewed_in() {
 #[test]
 fn value_that_is_not_finite_stops_in_its_own_tick() {
     let mut rig = Rig::pressing(hhd(), 0.001);
-    let absurd = Wall {
-        normal: [0.0, -1.0, 0.0],
-        offset_m: 1e308,
-        eta: 0.0,
-    };
+    let absurd = Wall::plane(1, [0.0, -1.0, 0.0], 1e308, 0.0);
     rig.controller.adopt(&scene(&[absurd], 0.0));
     assert!(is_zero(&rig.step()));
     assert!(rig.has(Fault::OutputNotFinite));

@@ -10,7 +10,7 @@ fn nothing_on_the_way_of_a_tick_or_a_request_allocates() {
     let scene = format!(
         r#"{{"type":"scene","scene":{{"revision":1,"fade_s":0.05,"mapping":"transpose","stiffness":"pose",
             "allocation":"motor_only","walls":[{}]}}}}"#,
-        [r#"{"normal":[0,0,1],"offset_m":-0.01,"eta":0.2}"#; 16].join(",")
+        [r#"{"key":1,"shape":{"type":"plane","normal":[0,0,1],"offset_m":-0.01},"law":{"type":"motion","eta":0.2}}"#; 16].join(",")
     );
     let rig = Rig::new();
     let report = rig.run_guarded(

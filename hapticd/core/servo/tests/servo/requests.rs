@@ -15,7 +15,7 @@ const DISABLE: &str = r#"{"type":"desired","desired":"disabled"}"#;
 fn scene(revision: u64) -> String {
     format!(
         r#"{{"type":"scene","scene":{{"revision":{revision},"fade_s":0.01,"mapping":"transpose","stiffness":"pose",
-            "allocation":"motor_only","walls":[{{"normal":[0,0,1],"offset_m":-0.5,"eta":0}}]}}}}"#
+            "allocation":"motor_only","walls":[{{"key":1,"shape":{{"type":"plane","normal":[0,0,1],"offset_m":-0.5}},"law":{{"type":"motion","eta":0}}}}]}}}}"#
     )
 }
 
