@@ -12,6 +12,8 @@ from typing import Any
 from hapticd.experiments.unit import unit_of
 from hapticd.model import DEVICES_DIR
 
+IDENTITY = frozenset({"name", "dof", "type"})
+
 _TABLE = re.compile(r"^\[([^\[\]]+)\]\s*(?:#\s*(.*))?$")
 _ENTRY = re.compile(r"^([A-Za-z0-9_-]+)\s*=\s*(?:\"[^\"]*\"|[^#\"])*(?:#\s*(.*))?$")
 _RANGE = re.compile(r"\brange\s+(-?[\d.]+)\s*…\s*(-?[\d.]+)")
@@ -21,8 +23,8 @@ _RANGE = re.compile(r"\brange\s+(-?[\d.]+)\s*…\s*(-?[\d.]+)")
 class ModelKey:
     """One value of a device model.
 
-    ``source`` is the comment in the model's file, its own or its table's; ``low`` and ``high`` are the range
-    that the comment gives: what is plausible, not what is allowed.
+    ``source`` is the comment in the model's file, its own or that of its table; ``low`` and ``high`` are the
+    range that the comment gives: what is plausible, not what is allowed.
     """
 
     name: str
@@ -35,7 +37,10 @@ class ModelKey:
 
 @cache
 def model_keys(model: str) -> Mapping[str, ModelKey]:
-    """Every dotted key of a model that comes with hapticd, in the order of its file."""
+    """Every dotted key of a model that comes with hapticd, in the order of its file.
+
+    What says which device it is, is left out: it is no parameter.
+    """
     text = (DEVICES_DIR / f"{model}.toml").read_text(encoding="utf-8")
     comments = dict(_comments(text))
     return {
@@ -74,7 +79,8 @@ def _comments(text: str) -> Iterator[tuple[str, str]]:
     table, about_table = "", ""
     for line in text.splitlines():
         if header := _TABLE.match(line):
-            table, about_table = f"{header[1].strip()}.", (header[2] or "").strip()
+            table = f"{header[1].strip()}."
+            about_table = f"[{header[1].strip()}] {header[2].strip()}" if header[2] else ""
         elif entry := _ENTRY.match(line):
             yield table + entry[1], (entry[2] or about_table).strip()
 

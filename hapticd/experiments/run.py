@@ -10,10 +10,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hapticd.experiments.experiment import Experiment, Value
-from hapticd.experiments.model_keys import keys_of_model
 from hapticd.experiments.parallel import parallel_map
 from hapticd.experiments.progress import Progress
-from hapticd.experiments.settings import Settings
+from hapticd.experiments.settings import Settings, layered
 from hapticd.model import Model, load_model
 from hapticd.twin import TwinRun
 
@@ -84,11 +83,11 @@ class Run:
 
     def overrides(self, model: str) -> dict[str, Any]:
         """What differs in a device model: the experiment's overrides, and above them what the user set."""
-        return self._layered(model, {})
+        return layered(self.experiment, self.settings, model)
 
     def model(self, model: str, overrides: Mapping[str, Any] | None = None) -> Model:
         """A device model as this run has it. ``overrides`` go above the experiment's, below the user's."""
-        return load_model(model, self._layered(model, overrides or {}))
+        return load_model(model, self._between(model, overrides or {}))
 
     def twin(
         self,
@@ -99,8 +98,12 @@ class Run:
         overrides: Mapping[str, Any] | None = None,
     ) -> TwinRun:
         """A twin as this run has it, seeded by the run unless ``seed`` says otherwise."""
-        layered = self._layered(model, overrides or {})
-        return TwinRun(model, rate_hz=rate_hz, seed=self.seed if seed is None else seed, overrides=layered)
+        return TwinRun(
+            model,
+            rate_hz=rate_hz,
+            seed=self.seed if seed is None else seed,
+            overrides=self._between(model, overrides or {}),
+        )
 
     def rng(self, purpose: str = "") -> np.random.Generator:
         """Random numbers from the seed; each purpose has its own, whatever the others draw."""
@@ -129,6 +132,5 @@ class Run:
 
         return parallel_map(function, items, each)
 
-    def _layered(self, model: str, overrides: Mapping[str, Any]) -> dict[str, Any]:
-        fixed = keys_of_model(self.experiment.overrides, model, self.experiment.models)
-        return {**fixed, **overrides, **self.settings.overrides.get(model, {})}
+    def _between(self, model: str, overrides: Mapping[str, Any]) -> dict[str, Any]:
+        return {**self.overrides(model), **overrides, **self.settings.overrides.get(model, {})}
