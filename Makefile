@@ -96,7 +96,7 @@ mutants: ## mutation tests of the safety layer, which take long; ARGS="--file bo
 lock: $(VENV)/.locked ## choose versions anew and pin them with their hashes
 	$(need_uv)
 	UV_CUSTOM_COMPILE_COMMAND="make lock" $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 \
-		--group dev --generate-hashes --no-emit-index-url --output-file requirements.lock pyproject.toml
+		--extra experiments --group dev --generate-hashes --no-emit-index-url --output-file requirements.lock pyproject.toml
 	$(CARGO) update $(MANIFEST)
 
 .PHONY: clean
