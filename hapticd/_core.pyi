@@ -244,6 +244,13 @@ class Simulation:
     def truth(self) -> TwinTruth: ...
 
 # ---------------------------------------------------------------------------------------------
+# linkage.rs: the twins' linkages
+# ---------------------------------------------------------------------------------------------
+
+def mass_matrix(device_json: str, twin_json: str, q: Sequence[float]) -> Sequence[Sequence[float]]:
+    """M(q), kg·m² by rows, rotors included; an unused joint has a mass of its own. ValueError: no such twin."""
+
+# ---------------------------------------------------------------------------------------------
 # safety.rs: formulas of the safety layer; shapes are (3,), or (3, 3) by rows
 # ---------------------------------------------------------------------------------------------
 
