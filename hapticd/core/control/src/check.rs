@@ -39,6 +39,7 @@ pub fn check(model: &DeviceModel, rate_hz: f64) -> Checked {
     let axes = Active(model.dof);
     kinematics(&model.kinematics, model.dof)?;
     joints(&model.joints, axes)?;
+    positive("tip.mass_kg", model.tip.mass_kg)?;
     positive(
         "estimator.lambda_rad_per_s",
         model.estimator.lambda_rad_per_s,

@@ -15,6 +15,8 @@ pub struct DeviceModel {
     pub kinematics: KinematicsModel,
     /// Encoders and joint limits.
     pub joints: JointModel,
+    /// The tip, as the laws see it.
+    pub tip: TipModel,
     /// Velocity estimate.
     pub estimator: EstimatorModel,
     /// What turns set-points into torque.
@@ -65,6 +67,14 @@ pub struct JointModel {
     pub max_rad: Axes,
     /// Rest pose, where a twin starts and a device is homed, rad.
     pub home_rad: Axes,
+}
+
+/// The tip, as the laws see it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TipModel {
+    /// Apparent mass at the tip, kg: smallest of the workspace.
+    pub mass_kg: f64,
 }
 
 /// Velocity estimate.

@@ -39,6 +39,8 @@ pub fn motion(record: &mut TickRecord, pose: &JointState, rendering: &Rendering)
     } else {
         NO_WALL
     };
+    record.touched_walls = [NO_WALL; 3];
+    record.passivity_wall = NO_WALL;
     record.contact_depth_m = contact.depth_m;
     record.contact_normal = contact.normal.into();
     record.joint_torque_demand_nm = rendering.demand.torque_nm.into();

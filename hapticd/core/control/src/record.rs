@@ -3,7 +3,7 @@
 //! Every field is one or three 8-byte words, so that the record can be copied word by word
 //! through shared memory and read as a numpy structured array.
 
-use crate::io::Axes;
+use crate::io::{Axes, AXES};
 
 /// How the words of a field are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +58,13 @@ impl Word for u64 {
         out[0] = self;
     }
 }
+impl Word for [u64; AXES] {
+    const KIND: Kind = Kind::Unsigned;
+    const WORDS: usize = 3;
+    fn put(self, out: &mut [u64]) {
+        out.copy_from_slice(&self);
+    }
+}
 
 macro_rules! record {
     ($( $name:ident : $type:ty, $unit:literal, $meaning:literal; )*) => {
@@ -98,7 +105,7 @@ record! {
     t_mono_ns: u64, "ns", "CLOCK_MONOTONIC at the start of the tick";
     t_device_ns: u64, "ns", "Device clock at the encoder latch";
     state: u64, "", "Device state: 0 offline, 1 disabled, 2 enabled, 3 paused, 4 fault";
-    flags: u64, "", "Bits: 0 homed, 1 busy, 2 estop latched, 3 fading, 4 fresh observation, 5 in contact";
+    flags: u64, "", "Bits: 0 homed, 1 busy, 2 estop latched, 3 fading, 4 fresh observation, 5 in contact, 6 passivity control acts, 7 friction sticks";
     faults: u64, "", "Latched faults, one bit each (fault table)";
     scene_revision: u64, "", "Revision of the scene in force";
     request_id: u64, "", "Last request taken from the front";
@@ -117,6 +124,15 @@ record! {
     contact_wall: u64, "", "Index of the deepest wall in contact; all ones when free";
     contact_depth_m: f64, "m", "Depth in the deepest wall";
     contact_normal: Axes, "", "Normal of the deepest wall, zero when free";
+    proxy_position_m: Axes, "m", "Where the tip would be if every wall of the newest scene were rigid";
+    touched_walls: [u64; AXES], "", "Indices of the walls touched, deepest first; all ones where there are fewer";
+    touched_force_n: Axes, "N", "Normal force each of them asks for";
+    touched_energy_j: Axes, "J", "Energy each of them took from the hand, less what it gave back";
+    device_energy_j: f64, "J", "Energy the device's outputs took from the hand, less what they gave back";
+    passivity_wall: u64, "", "Index of the wall that passivity control acts for; all ones when it does not";
+    passivity_damping_n_s_per_m: f64, "N·s/m", "Damping that passivity control adds";
+    friction_force_n: Axes, "N", "Friction force that is asked for";
+    friction_state: u64, "", "Friction: 0 none, 1 sticks, 2 slips";
     stiffness_n_per_m: f64, "N/m", "k_c: tip stiffness of a rigid wall at this pose and temperature";
     tip_force_demand_n: Axes, "N", "Tip force the scene asks for, before the bounding layer";
     tip_force_command_n: Axes, "N", "Tip force of the motor commands that went out";
@@ -156,6 +172,10 @@ pub mod flag {
     pub const FRESH: u64 = 1 << 4;
     /// At least one wall is touched.
     pub const CONTACT: u64 = 1 << 5;
+    /// Passivity control acts.
+    pub const PASSIVITY: u64 = 1 << 6;
+    /// Friction sticks.
+    pub const STICK: u64 = 1 << 7;
 }
 
 /// Bits of [`TickRecord::limits`].
@@ -178,7 +198,7 @@ pub mod limit {
     pub const NON_FINITE: u64 = 1 << 7;
 }
 
-/// Value of [`TickRecord::contact_wall`] when nothing is touched.
+/// Index of a wall where there is none.
 pub const NO_WALL: u64 = u64::MAX;
 
 /// 8-byte words in a record.
