@@ -7,6 +7,7 @@ command needs is imported inside it, so that the others start without it.
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -20,6 +21,7 @@ from rich.markup import escape
 
 if TYPE_CHECKING:
     from hapticd.doctor import Finding
+    from hapticd.problem import Problem
 
 GROUP = "hapticd.commands"
 DAEMON = "The daemon"
@@ -66,7 +68,7 @@ def run(config: ConfigOption = None, twin: TwinOption = False, port: PortOption 
     from hapticd.config import load_config
     from hapticd.daemon import run as serve
 
-    with _reported():
+    with reported():
         loaded = load_config(config)
         loaded = loaded.on_twins() if twin else loaded
         if port is not None:
@@ -106,17 +108,24 @@ def add_commands(to: typer.Typer) -> None:
 
 
 @contextmanager
-def _reported() -> Iterator[None]:
-    """Shows a problem as title, what happened, and cure, and ends the command."""
+def reported(*, as_json: bool = False) -> Iterator[None]:
+    """Shows a problem as title, what happened, and cure, or as its document, and ends the command."""
     from hapticd.problem import Problem
 
     try:
         yield
     except Problem as problem:
-        error_console.print(f"[bold red]✗ {escape(problem.title)}[/]")
-        error_console.print(f"  {escape(problem.detail)}", soft_wrap=True)
-        error_console.print(f"  [bold]Cure:[/] {escape(problem.hint)}", soft_wrap=True)
+        if as_json:
+            print(json.dumps(problem.document(), indent=2, ensure_ascii=False), file=sys.stderr)
+        else:
+            _show_problem(problem)
         raise typer.Exit(1) from None
+
+
+def _show_problem(problem: Problem) -> None:
+    error_console.print(f"[bold red]✗ {escape(problem.title)}[/]")
+    error_console.print(f"  {escape(problem.detail)}", soft_wrap=True)
+    error_console.print(f"  [bold]Cure:[/] {escape(problem.hint)}", soft_wrap=True)
 
 
 def _show(finding: Finding) -> None:

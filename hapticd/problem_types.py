@@ -298,6 +298,15 @@ _TYPES = (
         retryable=True,
     ),
     ProblemType(
+        "daemon-unreachable",
+        503,
+        "The daemon does not answer",
+        "Nothing listens at its address, or it stopped before the job had ended.",
+        "Look whether hapticd run is running, and on which port.",
+        "Start it with hapticd run, or name its address in HAPTICD_URL.",
+        retryable=True,
+    ),
+    ProblemType(
         "library-missing",
         500,
         "A Python library is missing",

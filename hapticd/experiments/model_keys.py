@@ -44,7 +44,9 @@ def model_keys(model: str) -> Mapping[str, ModelKey]:
     text = (DEVICES_DIR / f"{model}.toml").read_text(encoding="utf-8")
     comments = dict(_comments(text))
     return {
-        name: _key(name, default, comments.get(name, "")) for name, default in _leaves(tomllib.loads(text))
+        name: _key(name, default, comments.get(name, ""))
+        for name, default in _leaves(tomllib.loads(text))
+        if name.rpartition(".")[2] not in IDENTITY
     }
 
 

@@ -21,10 +21,7 @@ Result = TypeVar("Result")
 
 
 class Run:
-    """One run. Equal experiment, settings and seed: equal results to the last digit.
-
-    ``state_dir`` is where a resumable experiment keeps partial results; None when nothing shall be kept.
-    """
+    """One run. Equal experiment, settings and seed: equal results to the last digit."""
 
     def __init__(
         self,
@@ -38,8 +35,15 @@ class Run:
         self.experiment = experiment
         self.settings = settings
         self.seed = seed
-        self.state_dir = state_dir
+        self._state_dir = state_dir
         self._progress = progress or Progress()
+
+    @property
+    def state_dir(self) -> Path | None:
+        """Where a resumable experiment keeps partial results; None when nothing shall be kept."""
+        if self._state_dir is not None:
+            self._state_dir.mkdir(parents=True, exist_ok=True)
+        return self._state_dir
 
     @property
     def parameters(self) -> Mapping[str, Value]:

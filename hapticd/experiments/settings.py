@@ -68,7 +68,7 @@ def _places(experiment: Experiment, name: str) -> list[tuple[str, str]]:
 
 def _unknown(experiment: Experiment, name: str) -> Problem:
     known = known_names(experiment)
-    close = get_close_matches(name, known, n=3)
+    close = get_close_matches(name, known, n=3) or [entry for entry in known if name in entry][:3]
     nearest = f" Nearest: {', '.join(close)}." if close else ""
     return Problem(
         "parameter-unknown",
