@@ -15,8 +15,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
-/// Stack of the real-time thread, bytes. All of it is locked into memory; a Python driver runs on it.
-const STACK_BYTES: usize = 1 << 20;
+/// Stack of the real-time thread, bytes. All of it is locked into memory; a Python driver runs on
+/// it, and the scenes of a cross-fade, 50 kB each, pass over it.
+const STACK_BYTES: usize = 4 << 20;
 
 /// Adds this file's names to `hapticd._core`.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
