@@ -1,0 +1,48 @@
+"""A PHANTOM twin whose tip is fixed to a force sensor on a bench clamp: the set-up of WN Fig. 4."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hapticd.experiments.drive_tuning import MODEL
+from hapticd.experiments.run import Run
+
+Vector = NDArray[np.float64]
+
+IDEAL: Mapping[str, Any] = {
+    "twin.winding.brush_ripple": 0.0,
+    "twin.friction.coulomb_nm": [0.0, 0.0, 0.0],
+}
+"""Motors and bearings without what hides the law: brush ripple moves a joint's stiffness, friction holds
+part of the force."""
+
+
+CLAMP_S = 1.0
+"""Time in which the clamp takes the tip to a point, and the outputs ramp up."""
+
+
+class ClampedPhantom:
+    """Enabled, and held by the clamp where it started."""
+
+    def __init__(self, run: Run, pose_rad: Vector, overrides: Mapping[str, Any]) -> None:
+        self.twin = run.twin(MODEL, overrides={**overrides, "joints.home_rad": pose_rad.tolist()})
+        self.home: Vector = self.twin.truth()["tip_position_m"]
+        self.twin.enable()
+        self.move(np.zeros(3))
+
+    def move(self, displacement: Vector) -> None:
+        """Has the clamp take the tip to ``displacement``, m, from where it started, and settle there."""
+        target = self.home + displacement
+        self.twin.hand({"type": "clamp", "position_m": target.tolist()})
+        self.twin.run(CLAMP_S)
+
+    def measure(self, scene: Mapping[str, Any], settle_s: float, duration_s: float) -> tuple[Vector, Vector]:
+        """Mean tip position by the encoders, m, and mean force on the sensor, N."""
+        self.twin.scene(scene)
+        self.twin.run(settle_s)
+        records = self.twin.run(duration_s)
+        return records["tip_position_m"].mean(axis=0), -records["hand_force_n"].mean(axis=0)
