@@ -27,6 +27,18 @@ class Model:
     twin_json: str
     """What only its twin needs to know; ``null`` when the file has no ``[twin]``."""
 
+    @property
+    def has_brakes(self) -> bool:
+        """Whether any joint has a brake."""
+        return json.loads(self.device_json).get("brakes") is not None
+
+    def changed(self, overrides: Mapping[str, Any]) -> Model:
+        """This model with single values replaced, by dotted key. ``ValueError`` as in ``load_model``."""
+        document = json.loads(self.device_json)
+        if (twin := json.loads(self.twin_json)) is not None:
+            document["twin"] = twin
+        return _checked(document, overrides, self.name)
+
 
 def model_names() -> list[str]:
     """Names of the models that come with hapticd."""
@@ -45,14 +57,19 @@ def load_model(name_or_path: str | Path, overrides: Mapping[str, Any] | None = N
         document = tomllib.loads(path.read_text(encoding="utf-8"))
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"{path}: {error}") from error
-    for key, value in (overrides or {}).items():
+    return _checked(document, overrides or {}, path.name)
+
+
+def _checked(document: dict[str, Any], overrides: Mapping[str, Any], source: str) -> Model:
+    """The model in ``document`` under ``overrides``, checked by the core; ``source`` begins the message."""
+    for key, value in overrides.items():
         _override(document, key, value)
     twin_json = json.dumps(document.pop("twin", None))
     device_json = json.dumps(document)
     try:
         _core.check_model(device_json, twin_json)
     except ValueError as error:
-        raise ValueError(f"{path.name}: {error}") from error
+        raise ValueError(f"{source}: {error}") from error
     return Model(str(document["name"]), int(document["dof"]), device_json, twin_json)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hapticd import _core
-from hapticd.model import load_model
+from hapticd.model import Model, load_model
 from hapticd.record import record_dtype
 
 EMPTY_SCENE: Mapping[str, Any] = {
@@ -38,13 +38,15 @@ class TwinRun:
 
     def __init__(
         self,
-        model: str = "phantom-1.0",
+        model: str | Model = "phantom-1.0",
         *,
         rate_hz: float = 1000.0,
         seed: int = 1,
         overrides: Mapping[str, Any] | None = None,
     ) -> None:
-        self.model = load_model(model, overrides)
+        self.model = (
+            model.changed(overrides or {}) if isinstance(model, Model) else load_model(model, overrides)
+        )
         self.rate_hz = rate_hz
         self._simulation = _core.Simulation(self.model.device_json, self.model.twin_json, rate_hz, seed)
         self._revision = 0

@@ -1,0 +1,132 @@
+"""The stiffest walls that settle, over damping: simulated once for a model, a rate and a delay."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hapticd.analysis.bisection import largest
+from hapticd.analysis.device_loop import DeviceLoop, device_loop
+from hapticd.analysis.settling import bound_m, push
+from hapticd.model import Model
+
+DAMPING_SHARES = (0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8)
+"""Dampings looked at, of the largest that is linearly stable without a spring."""
+
+LADDER = 1.25
+"""Ratio of one stiffness to the next on the way up to the first that does not settle."""
+
+ACCURACY = 0.02
+"""To which the first that does not settle is then told from the last that does, relative."""
+
+LOWEST_SHARE = 0.25
+HIGHEST_SHARE = 50.0
+"""Where the way up begins and ends, of the coupling's own stiffness."""
+
+CREEP_S = 0.05
+"""Longest B/K: a wall that gives way more slowly has not come to rest by the end of a push, though stable."""
+
+DELAY_SLACK = 0.1
+"""Of a tick: what a delay may exceed whole ticks by without being simulated as one more."""
+
+SUBSTEP_MAX_S = 5e-5
+
+
+class Abandoned(Exception):
+    """Nobody waits for the simulation any more."""
+
+
+@dataclass(frozen=True, slots=True)
+class SettlingTable:
+    """Largest simulated-stable stiffness, N/m, at each damping, N·s/m. Between them it is interpolated.
+
+    A spring drive has one entry, at no damping. ``bound_m`` says what counted as rest.
+    """
+
+    damping_n_s_per_m: tuple[float, ...]
+    stiffness_n_per_m: tuple[float, ...]
+    bound_m: float
+
+    def largest_stiffness_n_per_m(self, damping_n_s_per_m: float) -> float:
+        """Largest stiffness that settled with this damping, N/m; 0 past the dampings looked at."""
+        return float(
+            np.interp(damping_n_s_per_m, self.damping_n_s_per_m, self.stiffness_n_per_m, right=0.0)
+        )
+
+
+def delay_ticks(rate_hz: float, delay_s: float) -> int:
+    """Ticks of delay that the twin is given beyond the one every exchange takes."""
+    return max(0, math.ceil(delay_s * rate_hz - 1.0 - DELAY_SLACK))
+
+
+def settling_table(
+    model: Model, rate_hz: float, ticks: int, wanted: Callable[[], bool] = lambda: True
+) -> SettlingTable:
+    """Simulates the table; seconds of work. ``wanted`` is asked between runs: ``Abandoned`` once it is not.
+
+    ``ValueError``: the model has no twin, or its twin cannot run at this rate.
+    """
+    if json.loads(model.twin_json) is None:
+        raise ValueError(f"{model.name} has no [twin] to simulate.")
+    loop = device_loop(model, rate_hz, (1 + ticks) / rate_hz)
+    delayed = model.changed(
+        {"twin.command_delay_ticks": ticks, "twin.substeps": _substeps(model, rate_hz)}
+    )
+    rest_m = bound_m(loop)
+
+    def settles(values: dict[str, Any]) -> bool:
+        if not wanted():
+            raise Abandoned
+        return push(delayed.changed(values), rate_hz).settled(rest_m)
+
+    dampings = tuple(_dampings(loop))
+    found = tuple(_first_unsettled(loop, model, damping, settles) for damping in dampings)
+    return SettlingTable(dampings, found, rest_m)
+
+
+def _dampings(loop: DeviceLoop) -> Iterator[float]:
+    if loop.coupling.is_spring_drive:
+        yield 0.0
+        return
+    limit = loop.linear.largest_damping_n_s_per_m()
+    yield from (share * limit for share in DAMPING_SHARES)
+
+
+def _first_unsettled(
+    loop: DeviceLoop, model: Model, damping: float, settles: Callable[[dict[str, Any]], bool]
+) -> float:
+    """Up in steps until one does not settle: settling need not be monotonic, what lies below must."""
+
+    def holds(stiffness: float) -> bool:
+        return settles(drive_values(model, loop, stiffness, damping))
+
+    stiffness = max(LOWEST_SHARE * loop.coupling.stiffness_n_per_m, damping / CREEP_S)
+    highest = HIGHEST_SHARE * loop.coupling.stiffness_n_per_m
+    if not holds(stiffness):
+        return 0.0
+    while stiffness < highest and holds(stiffness * LADDER):
+        stiffness *= LADDER
+    return largest(holds, stiffness, stiffness * LADDER, ACCURACY)
+
+
+def drive_values(model: Model, loop: DeviceLoop, stiffness: float, damping: float) -> dict[str, Any]:
+    """Overrides of the model that make a rigid wall this stiff, N/m, and damped, N·s/m.
+
+    A spring drive is tuned: every K_P by the same factor, from k_c as it is to k_c as it shall be.
+    """
+    if not loop.coupling.is_spring_drive:
+        return {"drive.stiffness_n_per_m": stiffness, "drive.damping_n_s_per_m": damping}
+    factor = stiffness / loop.coupling.stiffness_n_per_m
+    k_p = json.loads(model.device_json)["drive"]["k_p_v_per_rad"]
+    return {"drive.k_p_v_per_rad": [factor * value for value in k_p]}
+
+
+def _substeps(model: Model, rate_hz: float) -> int:
+    """At least the model's; more where a tick is long."""
+    own: int = json.loads(model.twin_json)["substeps"]
+    return max(own, math.ceil(1.0 / (rate_hz * SUBSTEP_MAX_S)))
