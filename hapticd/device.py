@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
@@ -12,11 +14,13 @@ import numpy as np
 
 from hapticd.channel import Channel, Link
 from hapticd.config import DeviceConfig
-from hapticd.device_report import Attachment, DeviceReporter, granted_walls, in_force
+from hapticd.device_report import Attachment, DeviceReporter, in_force
 from hapticd.events import EventLog
 from hapticd.frame import Records
+from hapticd.granter import Granter
 from hapticd.hand import HandScript, Hold, flat_script
 from hapticd.injection import Injection
+from hapticd.loan import Loan
 from hapticd.misses import Misses
 from hapticd.model import Model
 from hapticd.problem import Problem
@@ -25,11 +29,12 @@ from hapticd.realtime import Miss, RealtimeReport, realtime_report
 from hapticd.reasons import fault_bits, faults
 from hapticd.record import record_dtype
 from hapticd.refusal import refusal
-from hapticd.scene import Scene, Wall
+from hapticd.scene import Scene
 from hapticd.scene_editor import SceneEditor
 from hapticd.scene_store import SceneStore
 from hapticd.servo_event import message_of
-from hapticd.snapshot import DESIRED_STATES, Applied, DeviceSnapshot, SceneResult
+from hapticd.snapshot import DESIRED_STATES, Applied, DeviceSnapshot, GrantedWall, SceneResult
+from hapticd.wall import Wall
 
 if TYPE_CHECKING:
     from hapticd._core import ServoEvent, ServoStatus
@@ -64,8 +69,9 @@ class Device:
         self.is_twin: bool = config.is_twin
         self.rate_hz: float = config.rate_hz
         self._reporter = DeviceReporter(config, model)
+        self._granter = Granter.of_model(model)
         self._events = events
-        self._editor = SceneEditor(config.id, model.dof, store, events, self._send_scene)
+        self._editor = SceneEditor(config.id, model, store, events, self._send_scene)
         self._hand: HandScript = Hold(type="hold")
         self._link: Link | None = None
         self._channel: Channel | None = None
@@ -159,6 +165,11 @@ class Device:
         """The wall of this id. ``Problem``: wall-not-found."""
         return self._editor.wall(wall_id)
 
+    def granted_walls(self, scene: Scene) -> list[GrantedWall]:
+        """What each enabled wall of a scene comes to at the present pose."""
+        reading = self._reading()
+        return self._granter.walls(scene, reading.number("stiffness_n_per_m") if reading else None)
+
     async def put_wall(
         self, wall: Wall, *, if_match: str | None = None, dry_run: bool = False, create_only: bool = False
     ) -> SceneResult:
@@ -183,8 +194,9 @@ class Device:
         return self._hand
 
     async def set_hand(self, script: HandScript) -> Applied:
-        """Tells the twin's hand what to do. ``Problem``: not-a-twin, dimension-mismatch."""
+        """Tells the twin's hand what to do. ``Problem``: not-a-twin, dimension-mismatch, device-lent."""
         self._require_twin()
+        self._editor.check_not_lent()
         applied = await self._apply({"type": "hand", "script": flat_script(script, self.dof)})
         self._hand = script
         return applied
@@ -193,6 +205,31 @@ class Device:
         """Injects a fault into the twin. ``Problem``: not-a-twin."""
         self._require_twin()
         return await self._apply({"type": "inject", "injection": injection.model_dump()})
+
+    # Loan --------------------------------------------------------------------------------------
+
+    @asynccontextmanager
+    async def lent(self, to: str) -> AsyncIterator[Loan]:
+        """Lends the device: meanwhile the scene and the hand are the holder's, and edits are refused.
+
+        Afterwards, however that comes about, scene and hand are as before. State and E-stop stay everybody's.
+        ``Problem`` (device-lent) while somebody else has it.
+        """
+        await self._editor.lend(to)
+        loan = Loan(self._apply, self._editor.next_revision)
+        try:
+            yield loan
+        finally:
+            loan.end()
+            self._editor.take_back()
+            await asyncio.shield(self._put_back(loan))
+
+    async def _put_back(self, loan: Loan) -> None:
+        # A device that is gone is told everything when it comes back.
+        with suppress(Problem):
+            await self._editor.send_present(lambda: loan.scene_changed, self._reporter.limits.fade_s)
+            if loan.hand_changed:
+                await self.set_hand(self._hand)
 
     # Ticks -------------------------------------------------------------------------------------
 
@@ -245,6 +282,8 @@ class Device:
         """
         if self._estop_owed and await self.engage_estop():
             self._estop_owed = False
+        if self._editor.is_lent:
+            return
         if self.is_twin and not self._restored:
             await self.set_hand(self._hand)
         await self._editor.send_present(lambda: not (self._restored and self.scene_in_force))
@@ -287,7 +326,7 @@ class Device:
         return self._link.info()["pid"] if self._link else None
 
     def _granted(self, result: SceneResult) -> SceneResult:
-        return result.model_copy(update={"walls": granted_walls(result.scene, self._reading())})
+        return result.model_copy(update={"walls": self.granted_walls(result.scene)})
 
     def _reading(self) -> Reading | None:
         return Reading.of(self._link.latest()) if self._link else None

@@ -10,9 +10,8 @@ from hapticd.config import DeviceConfig
 from hapticd.model import Model
 from hapticd.reading import Reading
 from hapticd.reasons import OFFLINE, faults, interlocks
-from hapticd.scene import Scene, Wall
 from hapticd.scene_editor import SceneEditor
-from hapticd.snapshot import DeviceSnapshot, Flags, GrantedWall, Health, Limits
+from hapticd.snapshot import DeviceSnapshot, Flags, Health, Limits
 
 if TYPE_CHECKING:
     from hapticd._core import ServoStatus
@@ -60,7 +59,7 @@ class DeviceReporter:
             rate_hz=self._config.rate_hz,
             traits=self._traits,
             state=reading.state if reading else "offline",
-            flags=(reading.flags if reading else Flags()).model_copy(update={"estop": estop}),
+            flags=_flags(editor, reading, estop=estop),
             faults=faults(reading.integer("faults")) if reading else [],
             interlocks=interlocks(status["interlocks"] if reading and status else OFFLINE),
             tick=reading.integer("tick") if reading else None,
@@ -77,19 +76,14 @@ class DeviceReporter:
         )
 
 
+def _flags(editor: SceneEditor, reading: Reading | None, *, estop: bool) -> Flags:
+    flags = reading.flags if reading else Flags()
+    return flags.model_copy(update={"estop": estop, "busy": flags.busy or editor.is_lent})
+
+
 def in_force(editor: SceneEditor, reading: Reading | None) -> bool:
     """Whether the loop renders the present revision of the scene."""
     return reading is not None and reading.integer("scene_revision") == editor.revision
-
-
-def granted_walls(scene: Scene, reading: Reading | None) -> list[GrantedWall]:
-    """What each wall that is enabled comes to at the present pose."""
-    k_c = reading.number("stiffness_n_per_m") if reading else None
-    return [_granted(wall, k_c) for wall in scene.walls if wall.enabled]
-
-
-def _granted(wall: Wall, k_c: float | None) -> GrantedWall:
-    return GrantedWall(id=wall.id, stiffness_n_per_m=None if k_c is None else (1.0 - wall.law.eta) * k_c)
 
 
 def _touched(editor: SceneEditor, reading: Reading) -> str | None:

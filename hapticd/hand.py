@@ -8,7 +8,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, Strict, TypeAdapter, field_validator
 
-from hapticd.scene import AXES, Document, Point, check_length, padded
+from hapticd.document import Document
+from hapticd.vector import AXES, Point, check_length, padded
 
 Line = Annotated[
     tuple[Annotated[float, Field(ge=-1e3, le=1e3)], ...], Field(min_length=2, max_length=AXES), Strict(False)

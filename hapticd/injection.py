@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, TypeAdapter
 
-from hapticd.scene import Document
+from hapticd.document import Document
 
 DURATION_MAX_S = 60.0
 

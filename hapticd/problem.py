@@ -103,7 +103,7 @@ def invalid_document(
     found = error.errors() if isinstance(error, ValidationError) else error
     errors = [
         {
-            "pointer": json_pointer((*inside, *entry["loc"])),
+            "pointer": json_pointer((*inside, *entry["loc"], *_tag(entry))),
             "message": _message(entry),
             "kind": str(entry["type"]),
         }
@@ -116,7 +116,15 @@ def invalid_document(
     return Problem(slug, detail, pointer=first["pointer"], device_id=device_id, errors=errors)
 
 
+def _tag(entry: Mapping[str, Any]) -> tuple[str, ...]:
+    """The field that says which of several kinds a document is, where that field is what is wrong."""
+    wrong = entry["type"] in ("union_tag_invalid", "union_tag_not_found")
+    return (entry["ctx"]["discriminator"].strip("'"),) if wrong else ()
+
+
 def _message(entry: Mapping[str, Any]) -> str:
+    if entry["type"] == "union_tag_invalid":
+        return f"There is no {entry['ctx']['tag']!r} here; write one of {entry['ctx']['expected_tags']}."
     if entry["type"] == "extra_forbidden":
         return f"There is no field {str(entry['loc'][-1])!r} here."
     message = str(entry["msg"]).removeprefix("Value error, ")

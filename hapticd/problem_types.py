@@ -163,6 +163,14 @@ _TYPES = (
         "Send vectors of that length.",
     ),
     ProblemType(
+        "no-brakes",
+        422,
+        "The device has no brakes",
+        "A wall asks that brakes take part in it, or render its friction.",
+        "GET the device: traits names brakes where there are any.",
+        "Leave brake out, or choose another actuator.",
+    ),
+    ProblemType(
         "too-many-walls",
         422,
         "The scene has too many walls",

@@ -8,10 +8,13 @@ from datetime import UTC, datetime
 from typing import Any
 
 from hapticd.events import EventLog
+from hapticd.flat_scene import edit_fade_s, flatten
+from hapticd.model import Model
 from hapticd.problem import Problem
-from hapticd.scene import Scene, Wall, check_scene, check_wall, edit_fade_s, flatten
+from hapticd.scene import Scene, check_scene
 from hapticd.scene_store import CorruptScene, SceneStore, StoredScene
 from hapticd.snapshot import Applied, SceneResult
+from hapticd.wall import Wall, check_brakes, check_wall
 
 Send = Callable[[Mapping[str, Any], float], Awaitable[Applied | None]]
 """Sends a flat scene with its fade time. None when no loop is there to take it."""
@@ -23,9 +26,10 @@ DRY_RUN_NOTE = "Nothing was changed: this was a dry run."
 class SceneEditor:
     """One device's scene and its revisions. Edits come one after the other, each whole or not at all."""
 
-    def __init__(self, device_id: str, dof: int, store: SceneStore, events: EventLog, send: Send) -> None:
+    def __init__(self, device_id: str, model: Model, store: SceneStore, events: EventLog, send: Send) -> None:
         self._device_id = device_id
-        self._dof = dof
+        self._dof = model.dof
+        self._brakes = model.has_brakes
         self._store = store
         self._events = events
         self._send = send
@@ -34,6 +38,7 @@ class SceneEditor:
         self._editing = asyncio.Lock()
         self._edits: set[asyncio.Task[SceneResult]] = set()
         self._wall_ids = _wall_ids(self._stored.scene)
+        self._lent_to: str | None = None
 
     @property
     def scene(self) -> Scene:
@@ -61,6 +66,8 @@ class SceneEditor:
     ) -> SceneResult:
         """Adds a wall, or replaces the one of this id unless ``create_only``."""
         check_wall(wall, self._dof)
+        if not self._brakes:
+            check_brakes(wall)
 
         def put(scene: Scene) -> Scene:
             if create_only and scene.wall(wall.id) is not None:
@@ -102,15 +109,41 @@ class SceneEditor:
         edit.add_done_callback(self._edits.discard)
         return await asyncio.shield(edit)
 
-    async def send_present(self, needed: Callable[[], bool]) -> None:
+    async def send_present(self, needed: Callable[[], bool], fade_s: float = 0.0) -> None:
         """Puts the present scene in force in a loop that does not have it. Raises ``Problem``.
 
         ``needed`` is asked between edits: an edit on its way looks like a loop that renders something else.
         """
         async with self._editing:
-            if needed():
-                flat, _ = flatten(self.scene, self.revision, 0.0)
-                await self._send(flat, 0.0)
+            if self._lent_to is None and needed():
+                flat, _ = flatten(self.scene, self.revision, fade_s)
+                await self._send(flat, fade_s)
+
+    @property
+    def is_lent(self) -> bool:
+        """Whether somebody else says for now what the loop renders."""
+        return self._lent_to is not None
+
+    async def lend(self, to: str) -> None:
+        """Refuses edits until ``take_back``. ``Problem`` (device-lent) while it is lent already."""
+        async with self._editing:
+            self.check_not_lent()
+            self._lent_to = to
+
+    def take_back(self) -> None:
+        """Takes edits again; ``send_present`` then puts the scene in force."""
+        self._lent_to = None
+
+    def next_revision(self) -> int:
+        """A revision that no scene of this device has had."""
+        self._last_revision += 1
+        return self._last_revision
+
+    def check_not_lent(self) -> None:
+        """``Problem`` (device-lent) while it is lent."""
+        if self._lent_to is not None:
+            detail = f"{self._device_id} is lent to {self._lent_to}."
+            raise Problem("device-lent", detail, device_id=self._device_id)
 
     async def _edit(
         self, change: Callable[[Scene], Scene], if_match: str | None, dry_run: bool
@@ -118,7 +151,7 @@ class SceneEditor:
         async with self._editing:
             self._check_match(if_match)
             after = change(self.scene)
-            check_scene(after, self._dof)
+            check_scene(after, self._dof, brakes=self._brakes)
             if dry_run:
                 return SceneResult(
                     scene=after,
@@ -128,15 +161,16 @@ class SceneEditor:
                     dry_run=True,
                     note=DRY_RUN_NOTE,
                 )
+            self.check_not_lent()
             return await self._put_in_force(after)
 
     async def _put_in_force(self, after: Scene) -> SceneResult:
         # A number is never used twice, not even after an edit that failed: it may have reached the loop.
-        self._last_revision += 1
+        revision = self.next_revision()
         fade_s = edit_fade_s(self.scene, after)
-        flat, wall_ids = flatten(after, self._last_revision, fade_s)
+        flat, wall_ids = flatten(after, revision, fade_s)
         applied = await self._send(flat, fade_s)
-        self._stored = StoredScene(revision=self._last_revision, saved_utc=datetime.now(UTC), scene=after)
+        self._stored = StoredScene(revision=revision, saved_utc=datetime.now(UTC), scene=after)
         self._wall_ids = wall_ids
         await self._save()
         self._tell(applied)

@@ -110,11 +110,28 @@ class DeviceSnapshot(Report):
     health: Health
 
 
+class Granted(Report):
+    """What a wall comes to at the present pose, and why. Null is what cannot be said.
+
+    ``stiffness_fraction`` is the granted share of the stiffness asked for. ``brake`` is whether brakes take
+    part in it, ``friction_actuator`` what renders its friction.
+    """
+
+    stiffness_n_per_m: float | None = None
+    stiffness_fraction: float | None = None
+    damping_n_s_per_m: float | None = None
+    brake: bool = False
+    passivity: bool = False
+    friction_actuator: Literal["motor", "brake"] | None = None
+    why: list[str] = []
+
+
 class GrantedWall(Report):
-    """What a wall comes to at the present pose: its stiffness is (1 − η) k_c (WN eq. 17, 29)."""
+    """What one wall of a scene was granted; ``stiffness_n_per_m`` is the one in ``granted``."""
 
     id: str
     stiffness_n_per_m: float | None
+    granted: Granted
 
 
 class SceneResult(Report):

@@ -14,8 +14,8 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
+from hapticd.document import Document
 from hapticd.problem import Problem, invalid_document
-from hapticd.scene import Document
 from hapticd_api.pointer import path_in
 from hapticd_api.problem_response import problem_response
 

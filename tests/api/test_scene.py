@@ -64,7 +64,7 @@ async def test_post_makes_a_wall_once_and_says_where(http: httpx.AsyncClient) ->
 async def test_patch_of_a_wall_keeps_what_it_does_not_name(http: httpx.AsyncClient) -> None:
     await http.put(f"{WALLS}/floor", json=floor())
     wall = (await http.patch(f"{WALLS}/floor", json={"law": {"eta": 0.25}})).json()["wall"]
-    assert wall["law"] == {"type": "motion", "eta": 0.25}
+    assert wall["law"] == {"type": "motion", "passivity": False, "brake": None, "eta": 0.25}
     assert wall["shape"]["point_m"] == [0, 0, -0.02]
 
 

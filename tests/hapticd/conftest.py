@@ -14,8 +14,8 @@ from hapticd.config import DeviceConfig
 from hapticd.device import Device
 from hapticd.events import EventLog
 from hapticd.model import load_model
-from hapticd.scene import Wall
 from hapticd.scene_store import SceneStore
+from hapticd.wall import Wall
 from tests.hapticd.fake_link import FakeLink
 
 

@@ -191,7 +191,7 @@ async def test_servo_that_comes_back_gets_hand_and_scene_again(attached: Bench) 
     attached.device.attach(fresh)
     await attached.device.restore()
     assert [request["type"] for request in fresh.requests] == ["hand", "scene"]
-    assert [wall["eta"] for wall in fresh.requests[1]["scene"]["walls"]] == [0.0]
+    assert [wall["law"]["eta"] for wall in fresh.requests[1]["scene"]["walls"]] == [0.0]
     snapshot = attached.device.snapshot()
     assert (snapshot.state, snapshot.scene_in_force, snapshot.health.restarts) == ("disabled", True, 1)
 

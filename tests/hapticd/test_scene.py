@@ -10,10 +10,13 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from hapticd import _core
+from hapticd.flat_scene import edit_fade_s, flatten
 from hapticd.flat_wall import rigid_plane, wall_key
 from hapticd.model import load_model
-from hapticd.problem import Problem, invalid_document
-from hapticd.scene import MAX_WALLS, Scene, Wall, check_scene, edit_fade_s, flatten
+from hapticd.problem import Problem
+from hapticd.scene import MAX_WALLS, Scene, check_scene
+from hapticd.wall import Wall
+from hapticd_api.errors import refused_document
 
 
 def wall(**changes: Any) -> dict[str, Any]:
@@ -32,7 +35,7 @@ def plane(point_m: list[float], normal: list[float]) -> dict[str, Any]:
 def problem_of(document: dict[str, Any]) -> Problem:
     with pytest.raises(ValidationError) as caught:
         Scene.model_validate(document)
-    return invalid_document(caught.value)
+    return refused_document(caught.value.errors(), document)
 
 
 def test_wall_of_the_api_document_is_accepted() -> None:
@@ -61,7 +64,11 @@ def test_scene_comes_back_from_json_as_it_was() -> None:
         (wall(shape=plane([0, 0, -20], [0, 0, 1])), "/walls/0/shape/point_m/2", "-10"),
         (wall(shape=plane([0], [1])), "/walls/0/shape/point_m", "at least 2"),
         (wall(shape=plane([0, 0, 0], [0, 1])), "/walls/0/shape", "agree"),
-        (wall(shape={"type": "sphere", "radius_m": 1}), "/walls/0/shape/type", "'plane'"),
+        (
+            wall(shape={"type": "ball", "radius_m": 1}),
+            "/walls/0/shape/type",
+            "'plane', 'sphere', 'box', 'capsule'",
+        ),
         (wall(id="Floor 1"), "/walls/0/id", "pattern"),
         (wall(colour="red"), "/walls/0/colour", "'colour'"),
         (wall(fade_s=60.0), "/walls/0/fade_s", "less than or equal to 5"),

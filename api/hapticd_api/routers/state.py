@@ -8,7 +8,7 @@ from fastapi import APIRouter
 from pydantic import Field
 
 from hapticd.device import Device
-from hapticd.scene import Document
+from hapticd.document import Document
 from hapticd.snapshot import Applied, DeviceState, FaultReport, Flags, InterlockReport, Report
 from hapticd_api.dependencies import DeviceDep
 from hapticd_api.problem_response import problem_answers

@@ -9,8 +9,9 @@ from starlette.responses import Response
 
 from hapticd.device import Device
 from hapticd.problem import Problem
-from hapticd.scene import Scene, Wall
+from hapticd.scene import Scene
 from hapticd.snapshot import Applied, Report, SceneResult
+from hapticd.wall import Wall
 from hapticd_api.conditional import conditional, tagged
 from hapticd_api.dependencies import DeviceDep, DryRun, IfMatch, IfNoneMatch, WallId
 from hapticd_api.document import checked, merged

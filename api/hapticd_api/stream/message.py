@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, Strict, TypeAdapter
 
-from hapticd.scene import Document
+from hapticd.document import Document
 
 PROTOCOL_VERSION = 1
 
