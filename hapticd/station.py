@@ -17,6 +17,7 @@ from hapticd.config import Config, DeviceConfig
 from hapticd.device import Device
 from hapticd.events import EventLog
 from hapticd.heartbeat import Heartbeat
+from hapticd.jobs import Jobs
 from hapticd.model import Model, load_model
 from hapticd.problem import Problem
 from hapticd.scene_store import SceneStore
@@ -48,6 +49,7 @@ class Station:
         self.telemetry: Mapping[str, Telemetry] = {
             device_id: Telemetry(device) for device_id, device in self.devices.items()
         }
+        self.jobs = Jobs(paths.state_dir, self.events, self.device)
         self._heartbeat = Heartbeat()
         self._supervisors = {
             device.id: self._supervisor(device, models[device.id]) for device in config.devices
@@ -83,7 +85,7 @@ class Station:
     async def stop(self) -> None:
         """Fades every force out, then ends servos and tasks; takes a few seconds at most."""
         self._stopping = True
-        await asyncio.gather(*(self._disable(device) for device in self.devices.values()))
+        await asyncio.gather(self.jobs.stop(), *(self._disable(device) for device in self.devices.values()))
         await asyncio.gather(*(supervisor.stop() for supervisor in self._supervisors.values()))
         if self._supervising:
             await asyncio.wait(self._supervising, timeout=SUPERVISORS_END_S)

@@ -21,9 +21,11 @@ from hapticd_api.routers import (
     devices,
     estop,
     events,
+    experiments,
     faults,
     health,
     interlocks,
+    jobs,
     metrics,
     model,
     problems,
@@ -38,6 +40,7 @@ from hapticd_api.stream import endpoint
 
 _RESOURCES = (
     *(devices, model, state, interlocks, estop, faults, scene, walls, twin, events),
+    *(experiments, jobs),
     *(root, system, asyncapi, health, metrics, problems),
 )
 _PAGES_AND_STREAMS = (openapi, docs_page, page_files, endpoint)

@@ -20,6 +20,8 @@ _TAGS = {
     "scene": "Everything one device renders, replaced whole.",
     "walls": "The walls of a scene, one by one.",
     "twin": "What only a simulated device has.",
+    "experiments": "The figures of the papers, checked on the twins or on a device.",
+    "jobs": "Slow work: one job runs, the others wait.",
     "events": "What happened.",
     "system": "The daemon itself, and how well its loops keep time.",
     "health": "For whatever watches the daemon.",

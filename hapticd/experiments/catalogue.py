@@ -29,5 +29,10 @@ def experiment(name: str) -> Experiment:
         detail = f"There is no experiment {name!r}."
         hint = f"Choose one of {', '.join(CATALOGUE)}."
         raise Problem("experiment-not-found", detail, hint=hint, allowed=list(CATALOGUE))
-    module, _, attribute = CATALOGUE[name].partition(":")
+    return load(CATALOGUE[name])
+
+
+def load(import_string: str) -> Experiment:
+    """The experiment at ``module:name``."""
+    module, _, attribute = import_string.partition(":")
     return cast(Experiment, getattr(importlib.import_module(module), attribute))

@@ -45,7 +45,12 @@ def resolve(experiment: Experiment, values: Mapping[str, Any]) -> Settings:
 def known_names(experiment: Experiment) -> list[str]:
     """Every name that can be set: the experiment's own, then the keys of its models."""
     keys = [key for model in experiment.models for key in model_keys(model)]
-    return [parameter.name for parameter in experiment.parameters] + list(dict.fromkeys(keys))
+    return own_names(experiment) + list(dict.fromkeys(keys))
+
+
+def own_names(experiment: Experiment) -> list[str]:
+    """The names of the experiment's own parameters."""
+    return [parameter.name for parameter in experiment.parameters]
 
 
 def layered(experiment: Experiment, settings: Settings, model: str) -> dict[str, Any]:

@@ -41,6 +41,8 @@ _LINKS = {
     "devices": "/api/v1/devices",
     "estop": "/api/v1/estop",
     "events": "/api/v1/events",
+    "experiments": "/api/v1/experiments",
+    "jobs": "/api/v1/jobs",
     "realtime": "/api/v1/system/realtime",
     "stream": "/api/v1/stream",
     "live": "/livez",
