@@ -13,8 +13,8 @@ DAMPING_MAX_N_S_PER_M = 1e4
 COEFFICIENT_MAX_N_S3_PER_M3 = 1e9
 
 DEFAULT_COEFFICIENT_N_S3_PER_M3 = {"explicit": 1.6e6, "implicit": 1.28e7}
-"""C as printed (KS §4), and eight times that for the implicit form: that form adds F T/m to the speed at which
-a force F is met, and with the printed C a weak push sinks in three times as deep (physics §6)."""
+"""C as printed (KS §4), and eight times that for the implicit form, which meets a force F at a speed F T/m
+higher: with the printed C a weak push would sink in three times as deep (physics §6)."""
 
 Damping = Annotated[float, Field(ge=0.0, le=DAMPING_MAX_N_S_PER_M)]
 
@@ -62,8 +62,8 @@ class CubicDamper(ContactLaw):
     form: Literal["implicit", "explicit"] = "implicit"
     coefficient_n_s3_per_m3: Annotated[float, Field(gt=0.0, le=COEFFICIENT_MAX_N_S3_PER_M3)] | None = Field(
         None,
-        description=f"C, N·s³/m³; null is {DEFAULT_COEFFICIENT_N_S3_PER_M3['implicit']:g} for the implicit form, "
-        f"{DEFAULT_COEFFICIENT_N_S3_PER_M3['explicit']:g} for the explicit one",
+        description="C, N·s³/m³; null is the form's own: "
+        + ", ".join(f"{form} {c:g}" for form, c in DEFAULT_COEFFICIENT_N_S3_PER_M3.items()),
     )
 
     @property

@@ -20,13 +20,20 @@ def checked(model: type[Model], document: Any) -> Model:
 
 
 def merged(target: Any, patch: Any) -> Any:
-    """`target` with a JSON merge patch: objects merge, null removes, all else replaces (RFC 7396)."""
+    """`target` with a JSON merge patch: objects merge, null removes, all else replaces (RFC 7396).
+
+    An object whose `type` changes is replaced whole: the members of another kind would not fit it.
+    """
     if not isinstance(patch, dict):
         return patch
-    result = dict(target) if isinstance(target, dict) else {}
+    result = dict(target) if isinstance(target, dict) and _of_one_type(target, patch) else {}
     for name, value in patch.items():
         if value is None:
             result.pop(name, None)
         else:
             result[name] = merged(result.get(name), value)
     return result
+
+
+def _of_one_type(target: dict[str, Any], patch: dict[str, Any]) -> bool:
+    return "type" not in patch or patch["type"] == target.get("type")

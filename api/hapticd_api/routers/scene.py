@@ -21,6 +21,7 @@ _ERRORS = problem_answers(
     "invalid-document",
     "unknown-field",
     "dimension-mismatch",
+    "no-brakes",
     "too-many-walls",
     "revision-stale",
     "storage-failed",

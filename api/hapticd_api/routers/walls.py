@@ -8,28 +8,20 @@ from fastapi import APIRouter, Body
 from starlette.responses import Response
 
 from hapticd.device import Device
+from hapticd.friction import Friction
+from hapticd.laws import Law
 from hapticd.problem import Problem
 from hapticd.scene import Scene
-from hapticd.snapshot import Applied, Report, SceneResult
+from hapticd.shapes import Shape
+from hapticd.snapshot import Applied, Granted, Report, SceneResult
 from hapticd.wall import Wall
 from hapticd_api.conditional import conditional, tagged
 from hapticd_api.dependencies import DeviceDep, DryRun, IfMatch, IfNoneMatch, WallId
 from hapticd_api.document import checked, merged
 from hapticd_api.problem_response import problem_answers
+from hapticd_api.wall_examples import PATCH_EXAMPLES, WALL_EXAMPLES
 
 router = APIRouter(prefix="/api/v1/devices/{device_id}/scene/walls", tags=["walls"])
-
-_FLOOR = {
-    "id": "floor",
-    "shape": {"type": "plane", "point_m": [0, 0, -0.02], "normal": [0, 0, 1]},
-    "law": {"type": "motion", "eta": 0.0},
-    "fade_s": 0.2,
-}
-_WALL_EXAMPLES = {"floor": {"summary": "A rigid floor 2 cm below the origin", "value": _FLOOR}}
-_PATCH_EXAMPLES = {
-    "softer": {"summary": "Half as stiff", "value": {"law": {"eta": 0.5}}},
-    "off": {"summary": "Out of the way, but kept", "value": {"enabled": False}},
-}
 
 _READ_ERRORS = ("device-not-found", "wall-not-found")
 _WRITE_ERRORS = (
@@ -37,6 +29,7 @@ _WRITE_ERRORS = (
     "invalid-document",
     "unknown-field",
     "dimension-mismatch",
+    "no-brakes",
     "too-many-walls",
     "revision-stale",
     "storage-failed",
@@ -45,10 +38,25 @@ _WRITE_ERRORS = (
 _NOT_CHANGED: dict[int | str, dict[str, Any]] = {304: {"description": "The caller's copy still holds"}}
 
 
+class ReadWall(Report):
+    """A wall as it was written, and what it is granted at the present pose; null while it is off.
+
+    `granted` may be sent back with the rest: it is not part of the wall, nor of what the `ETag` tags.
+    """
+
+    id: str
+    shape: Shape
+    law: Law
+    friction: Friction | None
+    enabled: bool
+    fade_s: float
+    granted: Granted | None
+
+
 class WallList(Report):
     """The walls of a scene, in its order."""
 
-    walls: list[Wall]
+    walls: list[ReadWall]
 
 
 class WallResult(Report):
@@ -56,6 +64,7 @@ class WallResult(Report):
 
     wall: Wall | None
     stiffness_n_per_m: float | None = None
+    granted: Granted | None = None
     etag: str
     revision: int
     applied: Applied | None
@@ -64,16 +73,22 @@ class WallResult(Report):
 
 
 def _wall_result(result: SceneResult, wall_id: str) -> WallResult:
-    granted = {wall.id: wall.stiffness_n_per_m for wall in result.walls}
+    granted = next((wall.granted for wall in result.walls if wall.id == wall_id), None)
     return WallResult(
         wall=result.scene.wall(wall_id),
-        stiffness_n_per_m=granted.get(wall_id),
+        stiffness_n_per_m=granted.stiffness_n_per_m if granted else None,
+        granted=granted,
         etag=result.etag,
         revision=result.revision,
         applied=result.applied,
         dry_run=result.dry_run,
         note=result.note,
     )
+
+
+def _read(device: Device) -> list[ReadWall]:
+    granted = {wall.id: wall.granted for wall in device.granted_walls(device.scene)}
+    return [ReadWall(**dict(wall), granted=granted.get(wall.id)) for wall in device.scene.walls]
 
 
 def _has(device: Device, wall_id: str) -> bool:
@@ -89,7 +104,7 @@ def _has(device: Device, wall_id: str) -> bool:
 )
 async def list_walls(device: DeviceDep, if_none_match: IfNoneMatch = None) -> Response:
     """Every wall of the scene. The `ETag` is that of the scene."""
-    return conditional(WallList(walls=list(device.scene.walls)), device.scene_etag, if_none_match)
+    return conditional(WallList(walls=_read(device)), device.scene_etag, if_none_match)
 
 
 @router.post(
@@ -102,7 +117,7 @@ async def list_walls(device: DeviceDep, if_none_match: IfNoneMatch = None) -> Re
 )
 async def create_wall(
     device: DeviceDep,
-    wall: Annotated[Wall, Body(openapi_examples=_WALL_EXAMPLES)],
+    wall: Annotated[Wall, Body(openapi_examples=WALL_EXAMPLES)],
     if_match: IfMatch = None,
     dry_run: DryRun = False,
 ) -> Response:
@@ -117,12 +132,14 @@ async def create_wall(
     "/{wall_id}",
     operation_id="get_wall",
     summary="One wall",
-    response_model=Wall,
+    response_model=ReadWall,
     responses={**problem_answers(*_READ_ERRORS), **_NOT_CHANGED},
 )
 async def get_wall(device: DeviceDep, wall_id: WallId, if_none_match: IfNoneMatch = None) -> Response:
-    """The wall as it was written, ready to be edited and sent back."""
-    return conditional(device.get_wall(wall_id), device.scene_etag, if_none_match)
+    """The wall as it was written, ready to be edited and sent back, and what it is granted."""
+    device.get_wall(wall_id)
+    wall = next(wall for wall in _read(device) if wall.id == wall_id)
+    return conditional(wall, device.scene_etag, if_none_match)
 
 
 @router.put(
@@ -140,7 +157,7 @@ async def get_wall(device: DeviceDep, wall_id: WallId, if_none_match: IfNoneMatc
             "content": {
                 "application/json": {
                     "schema": {"$ref": "#/components/schemas/Wall"},
-                    "examples": _WALL_EXAMPLES,
+                    "examples": WALL_EXAMPLES,
                 }
             },
         }
@@ -173,11 +190,14 @@ async def put_wall(
 async def patch_wall(
     device: DeviceDep,
     wall_id: WallId,
-    patch: Annotated[dict[str, Any], Body(openapi_examples=_PATCH_EXAMPLES)],
+    patch: Annotated[dict[str, Any], Body(openapi_examples=PATCH_EXAMPLES)],
     if_match: IfMatch = None,
     dry_run: DryRun = False,
 ) -> Response:
-    """Merges a JSON merge patch (RFC 7396) into the wall; what it does not name stays."""
+    """Merges a JSON merge patch (RFC 7396) into the wall; what it does not name stays.
+
+    A shape or law whose `type` changes is replaced whole.
+    """
 
     def change(scene: Scene) -> Scene:
         before = scene.wall(wall_id) or device.get_wall(wall_id)
