@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import httpx
+import pytest
 
 from hapticd.flat_wall import rigid_plane, wall_key
+from hapticd_api.wall_examples import PATCH_EXAMPLES, WALL_EXAMPLES
 from tests.api.conftest import Rig
 from tests.api.documents import floor
 from tests.api.test_problems import problem_of
@@ -147,3 +149,68 @@ async def test_edit_of_an_offline_device_is_kept_and_says_that_it_waits(http: ht
     assert result["applied"] is None
     assert "offline" in result["note"]
     assert (await http.get("/api/v1/devices/bench/scene/walls/floor")).status_code == 200
+
+
+async def test_patch_to_another_law_leaves_nothing_of_the_old_one(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor(law={"type": "motion", "eta": 0.5, "passivity": True}))
+    law = {"type": "spring", "stiffness_n_per_m": 800}
+    wall = (await http.patch(f"{WALLS}/floor", json={"law": law})).json()["wall"]
+    assert wall["law"] == {**law, "damping_n_s_per_m": 0, "passivity": False, "brake": None}
+    wall = (await http.patch(f"{WALLS}/floor", json={"law": {"damping_n_s_per_m": 3}})).json()["wall"]
+    assert (wall["law"]["stiffness_n_per_m"], wall["law"]["damping_n_s_per_m"]) == (800, 3)
+
+
+async def test_patch_to_another_shape_needs_the_whole_of_it(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    ball = {"type": "sphere", "center_m": [0.2, 0, 0]}
+    problem = problem_of(await http.patch(f"{WALLS}/floor", json={"shape": ball}), 422, "invalid-document")
+    assert problem["pointer"] == "/shape/radius_m"
+    answer = await http.patch(f"{WALLS}/floor", json={"shape": {**ball, "radius_m": 0.02}})
+    assert answer.json()["wall"]["shape"] == {**ball, "radius_m": 0.02, "hollow": False}
+
+
+async def test_patch_with_null_takes_friction_away(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor(friction={"static": 0.4, "kinetic": 0.3}))
+    patch = {"friction": {"kinetic": 0.2}}
+    wall = (await http.patch(f"{WALLS}/floor", json=patch)).json()["wall"]
+    assert wall["friction"] == {"static": 0.4, "kinetic": 0.2, "actuator": "auto"}
+    assert (await http.patch(f"{WALLS}/floor", json={"friction": None})).json()["wall"]["friction"] is None
+
+
+async def test_wall_is_told_what_it_is_granted_on_write_and_on_read(http: httpx.AsyncClient) -> None:
+    spring = {"type": "spring", "stiffness_n_per_m": 3000}
+    written = (await http.put(f"{WALLS}/floor", json=floor(law=spring))).json()
+    assert (written["granted"]["stiffness_n_per_m"], written["granted"]["stiffness_fraction"]) == (1500, 0.5)
+    assert "at most 1500 N/m at this pose" in written["granted"]["why"][0]
+    read = (await http.get(f"{WALLS}/floor")).json()
+    assert read["granted"] == written["granted"]
+    assert (await http.get(WALLS)).json()["walls"] == [read]
+    again = await http.put(f"{WALLS}/floor", json=read)
+    assert (again.status_code, again.json()["wall"]) == (200, written["wall"])
+
+
+async def test_brake_on_a_device_without_is_refused_with_the_cure(http: httpx.AsyncClient) -> None:
+    law = {"type": "motion", "eta": 0, "brake": True}
+    answers = [
+        await http.put(f"{WALLS}/floor", json=floor(law=law)),
+        await http.put(SCENE, json={"walls": [floor(law=law)]}),
+    ]
+    for answer, inside in zip(answers, ["", "/walls/0"], strict=True):
+        problem = problem_of(answer, 422, "no-brakes")
+        assert problem["pointer"] == f"{inside}/law/brake"
+        assert "Write null" in problem["hint"]
+
+
+@pytest.mark.parametrize("name", sorted(WALL_EXAMPLES))
+async def test_every_example_of_a_wall_is_accepted(http: httpx.AsyncClient, name: str) -> None:
+    wall = WALL_EXAMPLES[name]["value"]
+    device = "phantom" if name not in ("cubic_damper", "rectangle") else "hhd"
+    answer = await http.post(f"/api/v1/devices/{device}/scene/walls", json=wall)
+    assert answer.status_code == 201, answer.text
+
+
+@pytest.mark.parametrize("name", sorted(PATCH_EXAMPLES))
+async def test_every_example_of_a_patch_is_accepted(http: httpx.AsyncClient, name: str) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    answer = await http.patch(f"{WALLS}/floor", json=PATCH_EXAMPLES[name]["value"])
+    assert answer.status_code == 200, answer.text
