@@ -61,7 +61,7 @@ def test_force_bounds_are_those_of_brute_force() -> None:
     ):
         unit = np.array([np.cos(direction), np.sin(direction)])
         along = reached[:, np.argmax(unit @ reached / np.linalg.norm(reached, axis=0))]
-        assert ball == pytest.approx(np.linalg.norm(along), rel=1e-4)
+        assert ball == pytest.approx(np.linalg.norm(along), rel=1e-3)
         assert np.abs(jacobian.T @ (box * unit)).max() == pytest.approx(3.0)
 
 
