@@ -12,6 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hapticd.analysis.device_stability import DeviceStability
+from hapticd.analysis.measured_delay import command_delay_ticks, exchange_s, loop_delay_s
+from hapticd.analysis.settling_library import SettlingLibrary
 from hapticd.channel import Channel, Link
 from hapticd.config import DeviceConfig
 from hapticd.device_report import Attachment, DeviceReporter, in_force
@@ -60,7 +63,14 @@ class Device:
     Belongs to the event loop's thread. The supervisor attaches and detaches the link to its servo.
     """
 
-    def __init__(self, config: DeviceConfig, model: Model, store: SceneStore, events: EventLog) -> None:
+    def __init__(
+        self,
+        config: DeviceConfig,
+        model: Model,
+        store: SceneStore,
+        events: EventLog,
+        settling: SettlingLibrary | None = None,
+    ) -> None:
         self.device_id: str = config.id
         self.model: Model = model
         self.model_name: str = model.name
@@ -68,6 +78,7 @@ class Device:
         self.driver: str = config.driver
         self.is_twin: bool = config.is_twin
         self.rate_hz: float = config.rate_hz
+        self.stability = DeviceStability(model, config.rate_hz, self._delay_s, settling or SettlingLibrary())
         self._reporter = DeviceReporter(config, model)
         self._granter = Granter.of_model(model)
         self._events = events
@@ -237,6 +248,11 @@ class Device:
         """Scheduling really obtained, histograms, misses. None before the servo's first status."""
         status = self._status()
         return realtime_report(self.device_id, self.rate_hz, status, self._misses.recent) if status else None
+
+    def _delay_s(self) -> float:
+        # A twin lives a whole tick under each command, however long its exchange takes to compute.
+        measured = 0.0 if self.is_twin else exchange_s(self._status())
+        return loop_delay_s(self.rate_hz, measured, command_delay_ticks(self.model))
 
     def head(self) -> int:
         """Ticks published so far; 0 while offline."""

@@ -171,6 +171,14 @@ _TYPES = (
         "Leave brake out, or choose another actuator.",
     ),
     ProblemType(
+        "over-stability-budget",
+        422,
+        "The wall is steeper than the device can render",
+        "At this rate and delay the loop would oscillate at the wall. The detail says what is stable.",
+        "POST the law to the device's analysis/stability: it lists every limit, the margin, and advice.",
+        "Ask for less, follow the advice, or send ?force=true: passivity then bounds the wall.",
+    ),
+    ProblemType(
         "too-many-walls",
         422,
         "The scene has too many walls",

@@ -13,6 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
+from hapticd.analysis.settling_library import SettlingLibrary
 from hapticd.config import Config, DeviceConfig
 from hapticd.device import Device
 from hapticd.events import EventLog
@@ -42,6 +43,7 @@ class Station:
         for directory in (paths.state_dir, paths.runtime_dir):
             _make_usable(directory)
         self.events = EventLog(paths.state_dir)
+        self._settling = SettlingLibrary(paths.state_dir / "stability")
         models = {device.id: _model(device) for device in config.devices}
         self.devices: Mapping[str, Device] = {
             device.id: self._device(device, models[device.id]) for device in config.devices
@@ -75,6 +77,9 @@ class Station:
         """
         self._lock = _lock(self.config.paths.runtime_dir)
         self._heartbeat.start()
+        self._settling.open()
+        for device in self.devices.values():
+            device.stability.prepare()
         self.events.append("daemon.started", "The daemon started.", details={"boot_id": self.boot_id})
         self._tasks = [asyncio.create_task(self._heartbeat.watch_loop(), name="heartbeat")]
         for device_id, telemetry in self.telemetry.items():
@@ -94,6 +99,7 @@ class Station:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         self._heartbeat.stop()
+        await asyncio.to_thread(self._settling.close)
         self.events.append("daemon.stopped", "The daemon stopped.", details={"boot_id": self.boot_id})
         if self._lock is not None:
             self._lock.close()
@@ -111,7 +117,7 @@ class Station:
 
     def _device(self, config: DeviceConfig, model: Model) -> Device:
         store = SceneStore(self.config.paths.state_dir / "scenes", config.id, model.dof)
-        return Device(config, model, store, self.events)
+        return Device(config, model, store, self.events, self._settling)
 
     def _supervisor(self, config: DeviceConfig, model: Model) -> Supervisor:
         servo = ServoProcess(config, model, self.config.paths.runtime_dir)

@@ -19,9 +19,7 @@ ALIASES = 40
 _ANGLE: NDArray[np.float64] = np.pi * (np.arange(ANGLES) + 1.0) / ANGLES
 
 
-def colgate_schenkel_n_per_m(
-    friction_n_s_per_m: float, damping_n_s_per_m: float, rate_hz: float
-) -> float:
+def colgate_schenkel_n_per_m(friction_n_s_per_m: float, damping_n_s_per_m: float, rate_hz: float) -> float:
     """Largest passive K of K + B(z−1)/(Tz) without delay: b > KT/2 + |B| (Colgate & Schenkel), N/m."""
     return max(0.0, 2.0 * rate_hz * (friction_n_s_per_m - abs(damping_n_s_per_m)))
 
@@ -40,8 +38,8 @@ def spring_drive_is_passive(k_dc: float, k_hf: float) -> bool:
 class SampledWall:
     """A wall sampled at ``rate_hz``, its force ``delay_s`` late, in front of a device with friction b.
 
-    The actuator is that of ``LinearLoop``: a lag τ_a and, in a spring drive, the series spring K_s, which with
-    the residual resistance takes energy up like a friction of K_s τ_a/(1 + ω²τ_a²). Velocity is the
+    The actuator is that of ``LinearLoop``: a lag τ_a and, in a spring drive, the series spring K_s, which
+    with the residual resistance takes energy up like a friction of K_s τ_a/(1 + ω²τ_a²). Velocity is the
     estimator's: differences through λ/(s+λ).
     """
 

@@ -73,9 +73,7 @@ def push(model: Model, rate_hz: float, seed: int = 1) -> Contact:
         return Contact(np.inf, touching=False, faulty=True)
     run.run(2 * json.loads(model.device_json)["limits"]["ramp_s"])
     against = [-component for component in wall.normal]
-    run.hand(
-        {"type": "push", "direction": against, "force_n": force_n, "speed_m_per_s": SPEED_M_PER_S}
-    )
+    run.hand({"type": "push", "direction": against, "force_n": force_n, "speed_m_per_s": SPEED_M_PER_S})
     return _contact(run.run(PUSH_S)[-round(WATCHED_S * rate_hz) :], wall)
 
 

@@ -8,6 +8,7 @@ import logging
 import os
 import queue
 import threading
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -40,6 +41,10 @@ class SettlingLibrary:
         self._asked: set[str] = set()
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
+        self._open = False
+
+    def open(self) -> None:
+        """From now on ``prepare`` prepares."""
         self._open = True
 
     def find(self, model: Model, rate_hz: float, ticks: int) -> SettlingTable | None:
@@ -56,7 +61,7 @@ class SettlingLibrary:
         return found if found is not None else self._make((model, rate_hz, ticks))
 
     def prepare(self, model: Model, rate_hz: float, ticks: int) -> None:
-        """Has the table made in the background, once. Returns at once."""
+        """Has the table made in the background, once. Returns at once; does nothing unless open."""
         key = key_of(model, rate_hz, ticks)
         if self.find(model, rate_hz, ticks) is not None:
             return
@@ -88,12 +93,12 @@ class SettlingLibrary:
                         self._thread = None
                         return
                 continue
-            self._make(entry)
+            self._make(entry, lambda: self._open)
 
-    def _make(self, entry: Entry) -> SettlingTable | None:
+    def _make(self, entry: Entry, wanted: Callable[[], bool] = lambda: True) -> SettlingTable | None:
         key, made = key_of(*entry), None
         try:
-            made = settling_table(*entry, lambda: self._open)
+            made = settling_table(*entry, wanted)
         except Abandoned:
             return None
         except ValueError as error:

@@ -54,9 +54,7 @@ class SettlingTable:
 
     def largest_stiffness_n_per_m(self, damping_n_s_per_m: float) -> float:
         """Largest stiffness that settled with this damping, N/m; 0 past the dampings looked at."""
-        return float(
-            np.interp(damping_n_s_per_m, self.damping_n_s_per_m, self.stiffness_n_per_m, right=0.0)
-        )
+        return float(np.interp(damping_n_s_per_m, self.damping_n_s_per_m, self.stiffness_n_per_m, right=0.0))
 
 
 def delay_ticks(rate_hz: float, delay_s: float) -> int:
@@ -74,15 +72,12 @@ def settling_table(
     if json.loads(model.twin_json) is None:
         raise ValueError(f"{model.name} has no [twin] to simulate.")
     loop = device_loop(model, rate_hz, (1 + ticks) / rate_hz)
-    delayed = model.changed(
-        {"twin.command_delay_ticks": ticks, "twin.substeps": _substeps(model, rate_hz)}
-    )
-    rest_m = bound_m(loop)
+    late, rest_m = delayed(model, rate_hz, ticks), bound_m(loop)
 
     def settles(values: dict[str, Any]) -> bool:
         if not wanted():
             raise Abandoned
-        return push(delayed.changed(values), rate_hz).settled(rest_m)
+        return push(late.changed(values), rate_hz).settled(rest_m)
 
     dampings = tuple(_dampings(loop))
     found = tuple(_first_unsettled(loop, model, damping, settles) for damping in dampings)
@@ -126,7 +121,8 @@ def drive_values(model: Model, loop: DeviceLoop, stiffness: float, damping: floa
     return {"drive.k_p_v_per_rad": [factor * value for value in k_p]}
 
 
-def _substeps(model: Model, rate_hz: float) -> int:
-    """At least the model's; more where a tick is long."""
+def delayed(model: Model, rate_hz: float, ticks: int) -> Model:
+    """The model with this delay beyond one tick, and substeps short enough for its rate."""
     own: int = json.loads(model.twin_json)["substeps"]
-    return max(own, math.ceil(1.0 / (rate_hz * SUBSTEP_MAX_S)))
+    substeps = max(own, math.ceil(1.0 / (rate_hz * SUBSTEP_MAX_S)))
+    return model.changed({"twin.command_delay_ticks": ticks, "twin.substeps": substeps})

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from hapticd.analysis.device_loop import Coupling
+from hapticd.laws import CubicDamper, Damper, Law, Motion, Spring
 
 LawType = Literal["motion", "spring", "damper", "cubic_damper"]
 
@@ -45,3 +46,16 @@ def cubic_damper(
     """
     slope = 3.0 * coefficient_n_s3_per_m3 ** (1 / 3) * force_max_n ** (2 / 3)
     return WallLaw("cubic_damper", 0.0, slope, bounded=form == "implicit")
+
+
+def slopes_of(law: Law, coupling: Coupling, force_max_n: float) -> WallLaw:
+    """The slopes of a law as people write it, on a device with this coupling and largest tip force."""
+    match law:
+        case Motion():
+            return motion(law.eta, coupling)
+        case Spring():
+            return spring(law.stiffness_n_per_m, law.damping_n_s_per_m)
+        case Damper():
+            return damper(law.damping_n_s_per_m)
+        case CubicDamper():
+            return cubic_damper(law.coefficient, law.form, force_max_n)
