@@ -44,6 +44,7 @@ class Jobs:
         self._jobs = {job.id: job for job in self._store.load()}
         self._worker: asyncio.Task[None] | None = None
         self._running: tuple[Job, asyncio.Task[list[str]]] | None = None
+        self._forget_oldest()
 
     def all(self) -> list[Job]:
         """Every job that is remembered, the newest first."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -50,9 +51,10 @@ class DaemonJob:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        with self._http:
-            if kind is not None and self._state in RUNNING:
+        if kind is not None and self._state in RUNNING:
+            with suppress(httpx.TransportError):
                 self._http.delete(self._address)
+        self._http.close()
 
     def wait(self, report: Report) -> dict[str, Any]:
         """The job once it has succeeded; its failure is raised."""

@@ -34,9 +34,13 @@ hapticd experiment reproduce --draws {draws} --seed {seed}
 
 
 def reproduce(
-    out: Path, draws: int, seed: int, progress: Progress, names: Sequence[str] = tuple(CATALOGUE)
+    out: Path, draws: int, seed: int, progress: Progress, names: Sequence[str] | None = None
 ) -> Path:
-    """Runs the experiments, each ``draws`` times more under jitter, and writes the page into ``out``."""
+    """Runs the experiments, each ``draws`` times more under jitter, and writes the page into ``out``.
+
+    ``names`` are those that are run, by default all.
+    """
+    names = list(CATALOGUE) if names is None else names
     sections: list[str] = []
     reports: list[Mapping[str, Any]] = []
     for index, name in enumerate(names):

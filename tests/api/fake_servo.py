@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ class FakeServo:
         self.revision = 0
         self.force_is_nan = False
         self.mute = False
+        self.on_scene: Callable[[], None] = lambda: None
 
     def info(self) -> dict[str, Any]:
         return {
@@ -144,6 +146,7 @@ class FakeServo:
                 self.state = "disabled"
             case "scene":
                 self.revision = request["scene"]["revision"]
+                self.on_scene()
         return "applied"
 
     def _interlocks(self) -> int:
