@@ -112,10 +112,18 @@ class SpringDrive:
 
         Exact at the sampling instants.
         """
+        found: Spectrum = self._back_emf(frequency_hz) + self.sampled_feedback(
+            frequency_hz, period_s, delay_ticks
+        )
+        return found
+
+    def sampled_feedback(
+        self, frequency_hz: NDArray[np.float64], period_s: float, delay_ticks: int
+    ) -> Spectrum:
+        """The part of ``sampled`` that the feedback adds to what the winding does by itself."""
         z = np.exp(2j * np.pi * frequency_hz * period_s)
         feedback = self.k_p + self.k_d * self._sampled_velocity(z, period_s)
-        held = self._held(z, period_s) * z**-delay_ticks
-        found: Spectrum = self._back_emf(frequency_hz) + held * feedback
+        found: Spectrum = self._held(z, period_s) * z**-delay_ticks * feedback
         return found
 
     def free_space(self, frequency_hz: NDArray[np.float64]) -> Spectrum:

@@ -41,8 +41,12 @@ class ClampedPhantom:
         self.twin.run(CLAMP_S)
 
     def measure(self, scene: Mapping[str, Any], settle_s: float, duration_s: float) -> tuple[Vector, Vector]:
-        """Mean tip position by the encoders, m, and mean force on the sensor, N."""
+        """Mean tip position by the encoders, m, and what the scene adds to the force on the sensor, N.
+
+        The sensor is tared without the scene: what is left of the linkage's weight is no stiffness.
+        """
+        tare = self.twin.run(duration_s)["hand_force_n"].mean(axis=0)
         self.twin.scene(scene)
         self.twin.run(settle_s)
         records = self.twin.run(duration_s)
-        return records["tip_position_m"].mean(axis=0), -records["hand_force_n"].mean(axis=0)
+        return records["tip_position_m"].mean(axis=0), tare - records["hand_force_n"].mean(axis=0)
