@@ -17,6 +17,7 @@ from hapticd_api.release import release
 from hapticd_api.request_metrics import RequestMetrics
 from hapticd_api.response_headers import ResponseHeaders
 from hapticd_api.routers import (
+    analysis,
     asyncapi,
     devices,
     estop,
@@ -40,7 +41,7 @@ from hapticd_api.stream import endpoint
 
 _RESOURCES = (
     *(devices, model, state, interlocks, estop, faults, scene, walls, twin, events),
-    *(experiments, jobs),
+    *(analysis, experiments, jobs),
     *(root, system, asyncapi, health, metrics, problems),
 )
 _PAGES_AND_STREAMS = (openapi, docs_page, page_files, endpoint)

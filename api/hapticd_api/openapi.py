@@ -19,6 +19,7 @@ _TAGS = {
     "faults": "Latched faults, each with its cause and cure.",
     "scene": "Everything one device renders, replaced whole.",
     "walls": "The walls of a scene, one by one.",
+    "analysis": "What a device can render: stability and stiffness. Nothing is changed.",
     "twin": "What only a simulated device has.",
     "experiments": "The figures of the papers, checked on the twins or on a device.",
     "jobs": "Slow work: one job runs, the others wait.",

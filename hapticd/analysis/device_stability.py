@@ -45,10 +45,10 @@ class DeviceStability:
 
         ``q``, (3,) rad, is the pose; see ``device_loop``.
         """
-        if rate_hz is None:
-            return device_loop(self._model, self._rate_hz, delay_s or self._delay_s(), q)
-        beyond_s = self._delay_s() - 1.0 / self._rate_hz
-        return device_loop(self._model, rate_hz, delay_s or 1.0 / rate_hz + beyond_s, q)
+        rate_hz = self._rate_hz if rate_hz is None else rate_hz
+        if delay_s is None:
+            delay_s = 1.0 / rate_hz + self._delay_s() - 1.0 / self._rate_hz
+        return device_loop(self._model, rate_hz, delay_s, q)
 
     def slopes(self, law: Law, loop: DeviceLoop) -> WallLaw:
         """The slopes of a law on this device."""

@@ -19,6 +19,9 @@ from hapticd.model import Model
 FORMAT = 1
 """Goes up when the simulation changes, so that older tables are made again."""
 
+MOST_DUE = 4
+"""Tables waiting to be made; more are not taken up until asked for again."""
+
 LEAST_URGENT = 19
 """nice(2) of the thread that simulates."""
 
@@ -29,13 +32,16 @@ Entry = tuple[Model, float, int]
 
 
 class SettlingLibrary:
-    """Tables by model, rate and delay. Without a directory they are kept in memory alone.
+    """Tables by model, rate and delay. Without a directory they live in memory alone.
+
+    ``keep`` says whether what is simulated is written to the directory, or only what is there is read.
 
     May be asked from any thread. Nothing is simulated until somebody asks for it.
     """
 
-    def __init__(self, directory: Path | None = None) -> None:
+    def __init__(self, directory: Path | None = None, *, keep: bool = True) -> None:
         self._directory = directory
+        self._keep = keep
         self._tables: dict[str, SettlingTable | None] = {}
         self._due: queue.SimpleQueue[Entry] = queue.SimpleQueue()
         self._asked: set[str] = set()
@@ -66,7 +72,7 @@ class SettlingLibrary:
         if self.find(model, rate_hz, ticks) is not None:
             return
         with self._lock:
-            if key in self._asked or not self._open:
+            if key in self._asked or not self._open or self._due.qsize() >= MOST_DUE:
                 return
             self._asked.add(key)
             self._due.put((model, rate_hz, ticks))
@@ -105,7 +111,7 @@ class SettlingLibrary:
             _log.warning("The stability of %s is not simulated: %s", entry[0].name, error)
         with self._lock:
             self._tables[key] = made
-        if made is not None:
+        if made is not None and self._keep:
             self._store(key, made)
         return made
 

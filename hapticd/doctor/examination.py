@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hapticd.config import Config, load_config
-from hapticd.doctor import address, build, driver, realtime, serial_port, storage
+from hapticd.doctor import address, build, driver, realtime, serial_port, stability, storage
 from hapticd.doctor.finding import Finding, fail, ok
 from hapticd.problem import Problem
 
@@ -25,6 +25,7 @@ def examine(config_file: Path | None = None) -> Iterator[Finding]:
     yield from storage.examine(config)
     yield from address.examine(config)
     yield from realtime.examine(config)
+    yield from stability.examine(config)
 
 
 def _summary(config: Config) -> str:
