@@ -1,0 +1,169 @@
+"""What KS §4 say about contact with a hard wall, and whether it is so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from hapticd.experiments.claims import judged, undecidable
+from hapticd.experiments.experiment import Claim
+from hapticd.experiments.wall_contact_strike import Strike
+
+Strikes = Mapping[tuple[str, str], Strike]
+
+SMALL_M = 5e-4
+"""A steady-state error that KS call small: under half of the 1.2 mm that they call large."""
+
+PRINTED_C = 1.6e6
+"""N·s³/m³ (KS §4)."""
+
+
+def claims(strikes: Strikes) -> tuple[Claim, ...]:
+    """The statements on Figs. 8 and 9, and Table 1."""
+    return (
+        _damper_law(),
+        _forces(strikes),
+        _weak_active(strikes["weak", "active"]),
+        _weak_passivity(strikes["weak", "passivity"]),
+        _weak_hybrid(strikes["weak", "hybrid"]),
+        _sharp_drop(strikes["weak", "hybrid"]),
+        _strong_active(strikes["strong", "active"]),
+        _strong_passivity(strikes["strong", "passivity"]),
+        _strong_hybrid(strikes["strong", "hybrid"]),
+        _table(strikes),
+        _feel(),
+    )
+
+
+def _damper_law() -> Claim:
+    force_n = PRINTED_C * 0.04**3
+    return judged(
+        "F = 1 600 000 v³ gives 100 N from 40 mm/s on",
+        "KS §4, Fig. 7",
+        "100 N at 40 mm/s",
+        f"{force_n:.1f} N; 100 N at {1e3 * np.cbrt(100.0 / PRINTED_C):.1f} mm/s",
+        holds=abs(force_n - 100.0) < 5.0,
+    )
+
+
+def _forces(strikes: Strikes) -> Claim:
+    weak = [strike.numbers()["steady_force_n"] or 0.0 for (s, _), strike in strikes.items() if s == "weak"]
+    strong = [strike.numbers()["peak_force_n"] or 0.0 for (s, _), strike in strikes.items() if s == "strong"]
+    return judged(
+        "The operator feels 20–30 N in weak contact and over 100 N in strong contact",
+        "KS §4",
+        "20–30 N steady, more than 100 N at the peak",
+        f"{min(weak):.0f}–{max(weak):.0f} N steady; peak {min(strong):.0f}–{max(strong):.0f} N",
+        holds=min(weak) > 18.0 and max(weak) < 32.0 and min(strong) > 95.0,
+    )
+
+
+def _weak_active(strike: Strike) -> Claim:
+    return judged(
+        "Weak, active: bounces while it settles, then a very small error",
+        "KS Fig. 8(a)",
+        "bounces within about 0.11 s, error far below 1.2 mm",
+        _told(strike),
+        holds=strike.bounces >= 1 and strike.settled and _error(strike) < SMALL_M,
+    )
+
+
+def _weak_passivity(strike: Strike) -> Claim:
+    return judged(
+        "Weak, passivity control: one bounce, then a small error",
+        "KS Fig. 8(b)",
+        "one bounce, settled, error small",
+        _told(strike),
+        holds=strike.bounces == 1 and strike.settled and _error(strike) < SMALL_M,
+    )
+
+
+def _weak_hybrid(strike: Strike) -> Claim:
+    return judged(
+        "Weak, hybrid: no bounce, an error of 1.2 mm after about 0.11 s",
+        "KS Fig. 8(c)",
+        "no bounce, 0.6–2.4 mm",
+        _told(strike),
+        holds=strike.bounces == 0 and strike.settled and 0.6e-3 < _error(strike) < 2.4e-3,
+    )
+
+
+def _sharp_drop(strike: Strike) -> Claim:
+    speed = strike.speed_m_per_s[strike.watched]
+    below = [float(np.argmax(speed < share)) / strike.rate_hz for share in (0.02, 0.002)]
+    drop_s = below[1] - below[0]
+    return judged(
+        "Weak, hybrid: the speed falls sharply at the end of the transient",
+        "KS Fig. 8(c): at 0.12 s",
+        "from 20 to 2 mm/s within 40 ms",
+        f"within {1e3 * drop_s:.0f} ms, at {below[1]:.3f} s after the contact",
+        holds=0.0 <= drop_s < 0.04,
+    )
+
+
+def _strong_active(strike: Strike) -> Claim:
+    return judged(
+        "Strong, active: unstable oscillation with big bounces",
+        "KS Fig. 9(a)",
+        "never at rest",
+        _told(strike),
+        holds=not strike.settled,
+    )
+
+
+def _strong_passivity(strike: Strike) -> Claim:
+    return judged(
+        "Strong, passivity control: one big bounce, then stable with a small error",
+        "KS Fig. 9(b)",
+        "one bounce, settled, error small",
+        _told(strike),
+        holds=strike.bounces == 1 and strike.settled and _error(strike) < 2 * SMALL_M,
+    )
+
+
+def _strong_hybrid(strike: Strike) -> Claim:
+    return judged(
+        "Strong, hybrid: no bounce, stable, an error of up to about 20 mm",
+        "KS Fig. 9(c)",
+        "no bounce, 5–25 mm",
+        _told(strike),
+        holds=strike.bounces == 0 and strike.settled and 5e-3 < _error(strike) < 25e-3,
+    )
+
+
+def _table(strikes: Strikes) -> Claim:
+    errors = {wall: _error(strikes["weak", wall]) for wall in ("active", "passivity", "hybrid")}
+    told = ", ".join(f"{wall} {1e3 * error:.2f} mm" for wall, error in errors.items())
+    calm = not strikes["strong", "active"].settled and strikes["strong", "hybrid"].settled
+    return judged(
+        "Small error for the springs, large for the hybrid; the active one oscillates, the hybrid does not",
+        "KS Table 1",
+        "hybrid error more than twice the others' in weak contact; strong active never rests, hybrid does",
+        told,
+        holds=calm and errors["hybrid"] > 2.0 * max(errors["active"], errors["passivity"]),
+    )
+
+
+def _feel() -> Claim:
+    return undecidable(
+        "The hybrid wall feels more realistic at high speed",
+        "KS §4, Table 1",
+        "people prefer it",
+        "force and displacement only",
+        "no operator judges a twin; the force against displacement is drawn for comparison",
+    )
+
+
+def _error(strike: Strike) -> float:
+    error = strike.steady_error_m
+    return float("inf") if error is None else error
+
+
+def _told(strike: Strike) -> str:
+    found = strike.numbers()
+    speed = f"{found['contact_speed_m_per_s']:.2f} m/s, "
+    bounces = f"{found['bounces']} bounces, peak {1e3 * (found['peak_penetration_m'] or 0.0):.2f} mm, "
+    if not strike.settled:
+        return speed + bounces + f"not at rest: {1e3 * strike.unrest_m:.2f} mm peak to peak at the end"
+    return speed + bounces + f"error {1e3 * _error(strike):.2f} mm after {found['settling_s']:.2f} s"
