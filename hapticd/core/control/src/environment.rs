@@ -48,6 +48,26 @@ pub fn set_point(walls: &[Facing], x: &V3, xd: &V3) -> SetPoint {
     }
 }
 
+/// Each wall's share of the pull: Σ shareᵢ nᵢ = x_Sd − x, with shareᵢ = wᵢ max(0, dᵢ − nᵢᵀx_Sd) ≥ 0,
+/// m, the multiplier of wall i in the envelope of [`set_point`]. Rigid walls that contradict each
+/// other have shares far above their depths, which cancel. Writes the first `walls.len()` of
+/// `shares`.
+pub fn shares(walls: &[Facing], set_point: &SetPoint, shares: &mut [f64]) {
+    for (wall, share) in walls.iter().zip(shares) {
+        *share = if wall.eta < 1.0 {
+            wall.depth_m(&set_point.x_sd).max(0.0) / variance(wall)
+        } else {
+            0.0
+        };
+    }
+}
+
+/// 1/w of a wall with η < 1.
+fn variance(wall: &Facing) -> f64 {
+    let eta = wall.eta.max(ETA_MIN);
+    eta / (1.0 - eta)
+}
+
 /// Newton's method on the piecewise quadratic objective. Each step minimises over the walls
 /// active where it is; it ends when that minimum is where it already is.
 fn proximal(walls: &[Facing], x: &V3) -> Proximal {
@@ -133,12 +153,11 @@ fn active<'a>(walls: &'a [Facing], x: &'a V3, shift: &'a V3) -> impl Iterator<It
         let n = V3::from(wall.normal);
         let depth = wall.depth_m(x);
         let violation = depth - n.dot(shift);
-        let eta = wall.eta.max(ETA_MIN);
         (violation > 0.0).then(|| Active {
             n,
             depth,
             violation,
-            variance: eta / (1.0 - eta),
+            variance: variance(wall),
         })
     })
 }

@@ -4,7 +4,10 @@ use crate::io::Axes;
 use crate::linear::V3;
 use crate::scene::MAX_WALLS;
 
-/// The tangent plane of one wall where the tip meets it.
+/// Most planes of one scene: a corner inside a hollow box has three.
+pub const MAX_FACINGS: usize = 3 * MAX_WALLS;
+
+/// A tangent plane of one wall where the tip meets it. The planes of one wall follow each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Facing {
     /// Index of the wall in its scene.
@@ -29,14 +32,14 @@ impl Facing {
 #[derive(Clone, Debug)]
 pub struct Facings {
     count: usize,
-    planes: [Facing; MAX_WALLS],
+    planes: [Facing; MAX_FACINGS],
 }
 
 impl Default for Facings {
     fn default() -> Self {
         Self {
             count: 0,
-            planes: [Facing::default(); MAX_WALLS],
+            planes: [Facing::default(); MAX_FACINGS],
         }
     }
 }
@@ -58,7 +61,7 @@ impl Facings {
         self.count = 0;
     }
 
-    /// Adds one; a scene has at most [`MAX_WALLS`], each with one plane.
+    /// Adds one; a scene has at most [`MAX_FACINGS`].
     pub fn push(&mut self, facing: Facing) {
         if let Some(slot) = self.planes.get_mut(self.count) {
             *slot = facing;

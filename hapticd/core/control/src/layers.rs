@@ -119,6 +119,12 @@ impl Layers {
         self.proxies[self.stack[self.count - 1].slot].facings()
     }
 
+    /// The proxy of the tip in the newest scene, m.
+    #[must_use]
+    pub fn top_proxy(&self) -> V3 {
+        self.proxies[self.stack[self.count - 1].slot].point()
+    }
+
     /// Each scene with its weight and the surfaces that face the tip, newest first.
     pub fn weighted(&self) -> impl Iterator<Item = (f64, &Scene, &Facings)> {
         let mut uncovered = 1.0;

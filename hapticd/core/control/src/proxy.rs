@@ -8,6 +8,7 @@ use crate::scene::{Shape, Wall};
 #[derive(Clone, Debug, Default)]
 pub struct Proxy {
     facings: Facings,
+    point: V3,
 }
 
 impl Proxy {
@@ -22,8 +23,15 @@ impl Proxy {
         &mut self.facings
     }
 
+    /// Where the tip would rest were every wall rigid, m.
+    #[must_use]
+    pub fn point(&self) -> V3 {
+        self.point
+    }
+
     /// Follows the tip to `x`, m, among `walls`.
     pub fn follow(&mut self, walls: &[Wall], x: &V3) {
+        self.point = *x;
         self.facings.clear();
         for (wall, Wall { shape, .. }) in walls.iter().enumerate() {
             if let Shape::Plane { normal, offset_m } = *shape {

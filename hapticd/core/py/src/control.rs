@@ -38,7 +38,7 @@ fn lambda_max_sym(matrix: Rows) -> f64 {
 #[pyfunction]
 #[pyo3(name = "contact")]
 fn find_contact(walls: Vec<(Axes, f64, f64)>, x: Axes) -> (usize, Option<usize>, f64, Axes) {
-    let found = contact::contact(&facings(&walls), &V3::from(x));
+    let found = contact::contact(&facings(&walls), &V3::from(x), &V3::from(x));
     let wall = (found.count > 0).then_some(found.wall);
     (found.count, wall, found.depth_m, found.normal.into())
 }

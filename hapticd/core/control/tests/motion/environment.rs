@@ -1,5 +1,5 @@
 use crate::walls::{any_wall, unit, wall, walls};
-use hapticd_control::environment::set_point;
+use hapticd_control::environment::{set_point, shares};
 use hapticd_control::facing::Facing;
 use hapticd_control::linear::{M3, V3};
 use hapticd_control::scene::MAX_WALLS;
@@ -70,6 +70,19 @@ proptest! {
     #[test]
     fn set_point_of_soft_walls_minimises_the_envelope(walls in walls(24), x in point()) {
         prop_assert!(residual(&soft(&walls), &x) < 1e-7);
+    }
+
+    #[test]
+    fn shares_of_the_walls_add_up_to_the_pull(walls in walls(24), x in point()) {
+        for walls in [soft(&walls), rigid_room(&walls)] {
+            let found = set_point(&walls, &x, &V3::zeros());
+            let mut share_m = vec![f64::NAN; walls.len()];
+            shares(&walls, &found, &mut share_m);
+            let normals = walls.iter().map(|wall| V3::from(wall.normal));
+            let total: V3 = share_m.iter().zip(normals).map(|(share, n)| *share * n).sum();
+            prop_assert!((total - (found.x_sd - x)).norm() < 1e-7);
+            prop_assert!(share_m.iter().all(|share| *share >= 0.0));
+        }
     }
 
     #[test]
