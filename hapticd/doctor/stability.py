@@ -31,7 +31,10 @@ def _finding(device: DeviceConfig, model: Model, library: SettlingLibrary) -> Fi
     rigid = loop.coupling.stiffness_n_per_m
     passive = min(passive_limits(loop, 0.0).values())
     settled = _simulated(model, loop, library)
-    said = f"At {device.rate_hz:g} Hz walls are passive up to {_n_per_mm(passive)}; a rigid one has {_n_per_mm(rigid)}"
+    said = (
+        f"At {device.rate_hz:g} Hz walls are passive up to {_n_per_mm(passive)};"
+        f" a rigid one has {_n_per_mm(rigid)}"
+    )
     if settled is None:
         return warn(subject, f"{said}. It was not simulated.", "Add a [twin] to the model to know more.")
     detail = f"{said}, and the twin came to rest up to {_n_per_mm(settled)}."
