@@ -14,6 +14,7 @@ from hapticd.cli import JsonOption, console, error_console, reported
 
 EXPERIMENTS = "Experiments"
 OUT = Path("results")
+PIPE_COLUMNS = 160
 
 app = typer.Typer()
 experiment = typer.Typer(no_args_is_help=True, help="The papers' figures, checked on the twins.")
@@ -50,7 +51,7 @@ def list_experiments(as_json: JsonOption = False) -> None:
     from hapticd.experiments.description import summary
 
     with reported(as_json=as_json):
-        summaries = [summary(experiment(name)) for name in CATALOGUE]
+        summaries = [summary(experiment(name)) for name in CATALOGUE if _is_there(name)]
     if as_json:
         _print_json([entry.model_dump() for entry in summaries])
         return
@@ -120,6 +121,18 @@ def reproduce(
     console.print(f"wrote {escape(str(page))}", soft_wrap=True)
 
 
+def _is_there(name: str) -> bool:
+    """Whether the experiment can be imported; says why not, where one needs a library that is missing."""
+    from hapticd.experiments.catalogue import experiment
+
+    try:
+        experiment(name)
+    except ImportError as error:
+        error_console.print(f"[yellow]![/] {name} cannot be loaded: {escape(str(error))}", soft_wrap=True)
+        return False
+    return True
+
+
 def _run_here(
     name: str, values: Mapping[str, Any], seed: int, out: Path | None, jitter: int
 ) -> tuple[dict[str, Any], Sequence[Path]]:
@@ -158,4 +171,5 @@ def _print_report(report: Mapping[str, Any]) -> None:
     from hapticd.experiments.claims_table import claims_table
 
     console.print(f"[bold]{escape(report['title'])}[/] [dim]{escape(report['source'])}[/]", soft_wrap=True)
-    console.print(claims_table(report))
+    # Where nobody's terminal sets the width, a table as wide as its sentences need.
+    console.print(claims_table(report), width=None if console.is_terminal else PIPE_COLUMNS)
