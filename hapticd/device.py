@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hapticd.admission import Admission
 from hapticd.analysis.device_stability import DeviceStability
 from hapticd.analysis.measured_delay import command_delay_ticks, exchange_s, loop_delay_s
 from hapticd.analysis.settling_library import SettlingLibrary
 from hapticd.channel import Channel, Link
 from hapticd.config import DeviceConfig
 from hapticd.device_report import Attachment, DeviceReporter, in_force
+from hapticd.edit_terms import PLAIN, Terms
 from hapticd.events import EventLog
 from hapticd.frame import Records
-from hapticd.granter import Granter
+from hapticd.granter import NO_ADMISSIONS, Granter
 from hapticd.hand import HandScript, Hold, flat_script
 from hapticd.injection import Injection
 from hapticd.loan import Loan
@@ -34,9 +36,11 @@ from hapticd.record import record_dtype
 from hapticd.refusal import refusal
 from hapticd.scene import Scene
 from hapticd.scene_editor import SceneEditor
+from hapticd.scene_result import GrantedWall, SceneResult
 from hapticd.scene_store import SceneStore
 from hapticd.servo_event import message_of
-from hapticd.snapshot import DESIRED_STATES, Applied, DeviceSnapshot, GrantedWall, SceneResult
+from hapticd.snapshot import DESIRED_STATES, Applied, DeviceSnapshot
+from hapticd.vector import AXES
 from hapticd.wall import Wall
 
 if TYPE_CHECKING:
@@ -82,7 +86,15 @@ class Device:
         self._reporter = DeviceReporter(config, model)
         self._granter = Granter.of_model(model)
         self._events = events
-        self._editor = SceneEditor(config.id, model, store, events, self._send_scene)
+        self._editor = SceneEditor(
+            config.id,
+            model,
+            store,
+            events,
+            send=self._send_scene,
+            stability=self.stability,
+            grant=self.granted_walls,
+        )
         self._hand: HandScript = Hold(type="hold")
         self._link: Link | None = None
         self._channel: Channel | None = None
@@ -160,41 +172,39 @@ class Device:
     def scene_etag(self) -> str:
         return self._editor.etag
 
-    async def edit_scene(
-        self, change: Callable[[Scene], Scene], *, if_match: str | None = None, dry_run: bool = False
-    ) -> SceneResult:
+    async def edit_scene(self, change: Callable[[Scene], Scene], terms: Terms = PLAIN) -> SceneResult:
         """Puts what ``change`` makes of the present scene in force; no other edit comes between."""
-        return self._granted(await self._editor.edit(change, if_match=if_match, dry_run=dry_run))
+        return await self._editor.edit(change, terms)
 
-    async def replace_scene(
-        self, scene: Scene, *, if_match: str | None = None, dry_run: bool = False
-    ) -> SceneResult:
+    async def replace_scene(self, scene: Scene, terms: Terms = PLAIN) -> SceneResult:
         """Puts another scene in force, whole at one tick, faded so that no force steps."""
-        return self._granted(await self._editor.replace(scene, if_match=if_match, dry_run=dry_run))
+        return await self._editor.replace(scene, terms)
 
     def get_wall(self, wall_id: str) -> Wall:
         """The wall of this id. ``Problem``: wall-not-found."""
         return self._editor.wall(wall_id)
 
-    def granted_walls(self, scene: Scene) -> list[GrantedWall]:
+    def granted_walls(
+        self, scene: Scene, admissions: Mapping[str, Admission] = NO_ADMISSIONS
+    ) -> list[GrantedWall]:
         """What each enabled wall of a scene comes to at the present pose."""
         reading = self._reading()
-        return self._granter.walls(scene, reading.number("stiffness_n_per_m") if reading else None)
+        k_c = reading.number("stiffness_n_per_m") if reading else None
+        return self._granter.walls(scene, k_c, admissions)
 
-    async def put_wall(
-        self, wall: Wall, *, if_match: str | None = None, dry_run: bool = False, create_only: bool = False
-    ) -> SceneResult:
+    async def put_wall(self, wall: Wall, terms: Terms = PLAIN, *, create_only: bool = False) -> SceneResult:
         """Adds a wall, or replaces its namesake. ``Problem`` (wall-exists) instead when ``create_only``."""
-        result = await self._editor.put_wall(
-            wall, if_match=if_match, dry_run=dry_run, create_only=create_only
-        )
-        return self._granted(result)
+        return await self._editor.put_wall(wall, terms, create_only=create_only)
 
-    async def delete_wall(
-        self, wall_id: str, *, if_match: str | None = None, dry_run: bool = False
+    async def change_wall(
+        self, wall_id: str, change: Callable[[Wall], Wall], terms: Terms = PLAIN
     ) -> SceneResult:
+        """Puts what ``change`` makes of a wall in its place. ``Problem``: wall-not-found."""
+        return await self._editor.change_wall(wall_id, change, terms)
+
+    async def delete_wall(self, wall_id: str, terms: Terms = PLAIN) -> SceneResult:
         """Takes a wall away. ``Problem``: wall-not-found."""
-        return self._granted(await self._editor.delete_wall(wall_id, if_match=if_match, dry_run=dry_run))
+        return await self._editor.delete_wall(wall_id, terms)
 
     # Twin --------------------------------------------------------------------------------------
 
@@ -248,6 +258,12 @@ class Device:
         """Scheduling really obtained, histograms, misses. None before the servo's first status."""
         status = self._status()
         return realtime_report(self.device_id, self.rate_hz, status, self._misses.recent) if status else None
+
+    @property
+    def joint_angles_rad(self) -> list[float] | None:
+        """Joint angles of the newest tick, (3,); None while offline."""
+        reading = self._reading()
+        return None if reading is None else reading.vector("joint_position_rad", AXES)
 
     def _delay_s(self) -> float:
         # A twin lives a whole tick under each command, however long its exchange takes to compute.
@@ -340,9 +356,6 @@ class Device:
     @property
     def _pid(self) -> int | None:
         return self._link.info()["pid"] if self._link else None
-
-    def _granted(self, result: SceneResult) -> SceneResult:
-        return result.model_copy(update={"walls": self.granted_walls(result.scene)})
 
     def _reading(self) -> Reading | None:
         return Reading.of(self._link.latest()) if self._link else None

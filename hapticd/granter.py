@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from hapticd.admission import Admission
 from hapticd.laws import CubicDamper, Damper, Law, Motion, Spring
 from hapticd.model import Model
 from hapticd.scene import Scene
-from hapticd.snapshot import Granted, GrantedWall
+from hapticd.scene_result import Granted, GrantedWall
 from hapticd.wall import Wall
 
 UNKNOWN = "The device is offline: how stiff it can be at its pose is not known."
 NO_BRAKES = "The device has no brakes; motors render the wall."
 MOTORS_ALONE = "The scene's allocation is motor_only; brakes take no part."
+FORCED = "It is over its stability budget and was let in by force: passivity is on and bounds it."
 PASSIVE = "Passivity is on: energy that would be returned in excess is damped away."
 FORBIDDEN = "The wall's law says brake: false; motors render it."
+
+NO_ADMISSIONS: Mapping[str, Admission] = {}
 
 
 @dataclass(frozen=True)
@@ -44,22 +49,31 @@ class Granter:
         coupling = None if is_spring else (drive["stiffness_n_per_m"], drive["damping_n_s_per_m"])
         return cls(coupling, model.has_brakes)
 
-    def walls(self, scene: Scene, k_c: float | None) -> list[GrantedWall]:
-        """What each enabled wall of ``scene`` comes to.
+    def walls(
+        self, scene: Scene, k_c: float | None, admissions: Mapping[str, Admission] = NO_ADMISSIONS
+    ) -> list[GrantedWall]:
+        """What each enabled wall of ``scene`` comes to, with the admissions there are by wall.
 
         ``k_c``, N/m, is what the device gives a rigid wall at its pose; None when that is not known.
         """
-        granted = [(wall.id, self.wall(wall, scene, k_c)) for wall in scene.walls if wall.enabled]
+        granted = [
+            (wall.id, self.wall(wall, scene, k_c, admissions.get(wall.id)))
+            for wall in scene.walls
+            if wall.enabled
+        ]
         return [
             GrantedWall(id=wall_id, stiffness_n_per_m=each.stiffness_n_per_m, granted=each)
             for wall_id, each in granted
         ]
 
-    def wall(self, wall: Wall, scene: Scene, k_c: float | None) -> Granted:
+    def wall(
+        self, wall: Wall, scene: Scene, k_c: float | None, admission: Admission | None = None
+    ) -> Granted:
         """What one wall comes to."""
+        forced = admission is not None and admission.forced
         stiffness = self._stiffness(wall.law, k_c)
         brake, why_brake = self._brake(wall.law, scene)
-        why = [stiffness.why, why_brake, _why_passivity(wall.law)]
+        why = [stiffness.why, why_brake, FORCED if forced else PASSIVE if wall.law.passivity else None]
         return Granted(
             stiffness_n_per_m=stiffness.n_per_m,
             stiffness_fraction=stiffness.fraction,
@@ -67,6 +81,8 @@ class Granter:
             brake=brake,
             passivity=wall.law.passivity,
             friction_actuator=self._friction_actuator(wall, scene),
+            forced=forced,
+            budget=admission.budget if admission else None,
             why=[sentence for sentence in why if sentence],
         )
 
@@ -117,9 +133,3 @@ class Granter:
             return None
         brakes = self.has_brakes and scene.allocation != "motor_only"
         return "brake" if brakes and wall.friction.actuator != "motor" else "motor"
-
-
-def _why_passivity(law: Law) -> str | None:
-    return (
-        "Passivity is on: energy that would be returned in excess is damped away." if law.passivity else None
-    )

@@ -7,17 +7,25 @@ from collections.abc import Awaitable, Callable, Mapping
 from datetime import UTC, datetime
 from typing import Any
 
+from hapticd.admission import Admission
+from hapticd.analysis.device_stability import DeviceStability
+from hapticd.edit_terms import Terms
 from hapticd.events import EventLog
 from hapticd.flat_scene import edit_fade_s, flatten
 from hapticd.model import Model
 from hapticd.problem import Problem
 from hapticd.scene import Scene, check_scene
+from hapticd.scene_admission import AdmittedScene, admit_scene
+from hapticd.scene_result import GrantedWall, SceneResult
 from hapticd.scene_store import CorruptScene, SceneStore, StoredScene
-from hapticd.snapshot import Applied, SceneResult
+from hapticd.snapshot import Applied
 from hapticd.wall import Wall, check_brakes, check_wall
 
 Send = Callable[[Mapping[str, Any], float], Awaitable[Applied | None]]
 """Sends a flat scene with its fade time. None when no loop is there to take it."""
+
+Grant = Callable[[Scene, Mapping[str, Admission]], list[GrantedWall]]
+"""Says what the walls of a scene come to, with the admissions of those that were looked at."""
 
 OFFLINE_NOTE = "The device is offline: the scene is kept on disk and goes into force when the device is back."
 DRY_RUN_NOTE = "Nothing was changed: this was a dry run."
@@ -26,13 +34,25 @@ DRY_RUN_NOTE = "Nothing was changed: this was a dry run."
 class SceneEditor:
     """One device's scene and its revisions. Edits come one after the other, each whole or not at all."""
 
-    def __init__(self, device_id: str, model: Model, store: SceneStore, events: EventLog, send: Send) -> None:
+    def __init__(
+        self,
+        device_id: str,
+        model: Model,
+        store: SceneStore,
+        events: EventLog,
+        *,
+        send: Send,
+        stability: DeviceStability,
+        grant: Grant,
+    ) -> None:
         self._device_id = device_id
         self._dof = model.dof
         self._brakes = model.has_brakes
         self._store = store
         self._events = events
         self._send = send
+        self._stability = stability
+        self._grant = grant
         self._stored = self._load()
         self._last_revision = self._stored.revision
         self._editing = asyncio.Lock()
@@ -57,17 +77,13 @@ class SceneEditor:
         """Id of the wall at this place of the flat scene of the present revision."""
         return self._wall_ids[index] if 0 <= index < len(self._wall_ids) else None
 
-    async def replace(self, scene: Scene, *, if_match: str | None, dry_run: bool) -> SceneResult:
+    async def replace(self, scene: Scene, terms: Terms) -> SceneResult:
         """Puts another scene in the place of this one."""
-        return await self.edit(lambda _: scene, if_match=if_match, dry_run=dry_run)
+        return await self.edit(lambda _: scene, terms)
 
-    async def put_wall(
-        self, wall: Wall, *, if_match: str | None, dry_run: bool, create_only: bool
-    ) -> SceneResult:
+    async def put_wall(self, wall: Wall, terms: Terms, *, create_only: bool) -> SceneResult:
         """Adds a wall, or replaces the one of this id unless ``create_only``."""
-        check_wall(wall, self._dof)
-        if not self._brakes:
-            check_brakes(wall)
+        self._check_wall(wall)
 
         def put(scene: Scene) -> Scene:
             if create_only and scene.wall(wall.id) is not None:
@@ -76,16 +92,26 @@ class SceneEditor:
                 )
             return scene.with_wall(wall)
 
-        return await self.edit(put, if_match=if_match, dry_run=dry_run)
+        return await self.edit(put, terms, about=wall.id)
 
-    async def delete_wall(self, wall_id: str, *, if_match: str | None, dry_run: bool) -> SceneResult:
+    async def change_wall(self, wall_id: str, change: Callable[[Wall], Wall], terms: Terms) -> SceneResult:
+        """Puts what ``change`` makes of a wall in its place; no other edit comes between."""
+
+        def changed(scene: Scene) -> Scene:
+            wall = change(self.wall(wall_id))
+            self._check_wall(wall)
+            return scene.with_wall(wall)
+
+        return await self.edit(changed, terms, about=wall_id)
+
+    async def delete_wall(self, wall_id: str, terms: Terms) -> SceneResult:
         """Takes a wall away."""
 
         def delete(scene: Scene) -> Scene:
             self.wall(wall_id)
             return scene.without_wall(wall_id)
 
-        return await self.edit(delete, if_match=if_match, dry_run=dry_run)
+        return await self.edit(delete, terms)
 
     def wall(self, wall_id: str) -> Wall:
         """The wall of this id. ``Problem`` (wall-not-found) lists those there are."""
@@ -97,14 +123,15 @@ class SceneEditor:
         return found
 
     async def edit(
-        self, change: Callable[[Scene], Scene], *, if_match: str | None, dry_run: bool
+        self, change: Callable[[Scene], Scene], terms: Terms, *, about: str | None = None
     ) -> SceneResult:
         """Replaces the scene by what ``change`` makes of it.
 
-        Order: check, send, acknowledge, disk, event. Once begun it is finished, also when the caller goes
-        away, so that loop and disk agree. Raises ``Problem``.
+        Order: check, admit, send, acknowledge, disk, event. Once begun it is finished, also when the caller
+        goes away, so that loop and disk agree. ``about`` is the id of the wall that is the caller's whole
+        document. Raises ``Problem``.
         """
-        edit = asyncio.create_task(self._edit(change, if_match, dry_run))
+        edit = asyncio.create_task(self._edit(change, terms, about))
         self._edits.add(edit)
         edit.add_done_callback(self._edits.discard)
         return await asyncio.shield(edit)
@@ -145,26 +172,33 @@ class SceneEditor:
             detail = f"{self._device_id} is lent to {self._lent_to}."
             raise Problem("device-lent", detail, device_id=self._device_id)
 
-    async def _edit(
-        self, change: Callable[[Scene], Scene], if_match: str | None, dry_run: bool
-    ) -> SceneResult:
+    async def _edit(self, change: Callable[[Scene], Scene], terms: Terms, about: str | None) -> SceneResult:
         async with self._editing:
-            self._check_match(if_match)
-            after = change(self.scene)
-            check_scene(after, self._dof, brakes=self._brakes)
-            if dry_run:
-                return SceneResult(
-                    scene=after,
-                    etag=self.etag,
-                    revision=self.revision,
-                    applied=None,
-                    dry_run=True,
-                    note=DRY_RUN_NOTE,
-                )
-            self.check_not_lent()
-            return await self._put_in_force(after)
+            self._check_match(terms.if_match)
+            admitted = await self._admitted(change(self.scene), terms, about)
+            after = admitted.scene
+            applied = None
+            if not terms.dry_run:
+                self.check_not_lent()
+                applied = await self._put_in_force(after)
+            return SceneResult(
+                scene=after,
+                etag=self.etag,
+                revision=self.revision,
+                applied=applied,
+                dry_run=terms.dry_run,
+                note=_note(terms, applied),
+                walls=self._grant(after, admitted.admissions),
+            )
 
-    async def _put_in_force(self, after: Scene) -> SceneResult:
+    async def _admitted(self, after: Scene, terms: Terms, about: str | None) -> AdmittedScene:
+        check_scene(after, self._dof, brakes=self._brakes)
+        # Some milliseconds a wall: the event loop goes on meanwhile.
+        return await asyncio.to_thread(
+            admit_scene, self._stability, self.scene, after, force=terms.force, about=about
+        )
+
+    async def _put_in_force(self, after: Scene) -> Applied | None:
         # A number is never used twice, not even after an edit that failed: it may have reached the loop.
         revision = self.next_revision()
         fade_s = edit_fade_s(self.scene, after)
@@ -174,8 +208,12 @@ class SceneEditor:
         self._wall_ids = wall_ids
         await self._save()
         self._tell(applied)
-        note = OFFLINE_NOTE if applied is None else None
-        return SceneResult(scene=after, etag=self.etag, revision=self.revision, applied=applied, note=note)
+        return applied
+
+    def _check_wall(self, wall: Wall) -> None:
+        check_wall(wall, self._dof)
+        if not self._brakes:
+            check_brakes(wall)
 
     def _check_match(self, if_match: str | None) -> None:
         if if_match is None or if_match.strip() == "*":
@@ -210,6 +248,12 @@ class SceneEditor:
             aside = {"moved_to": str(error.moved_to), "why": str(error)}
             self._events.append("scene.corrupt", message, device_id=self._device_id, details=aside)
             return error.stored
+
+
+def _note(terms: Terms, applied: Applied | None) -> str | None:
+    if terms.dry_run:
+        return DRY_RUN_NOTE
+    return OFFLINE_NOTE if applied is None else None
 
 
 def _wall_ids(scene: Scene) -> list[str]:

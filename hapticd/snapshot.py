@@ -6,8 +6,6 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from hapticd.scene import Scene
-
 DeviceState = Literal["offline", "disabled", "enabled", "paused", "fault"]
 DESIRED_STATES = ("enabled", "disabled", "paused")
 
@@ -108,39 +106,3 @@ class DeviceSnapshot(Report):
     walls: int
     limits: Limits
     health: Health
-
-
-class Granted(Report):
-    """What a wall comes to at the present pose, and why. Null is what cannot be said.
-
-    ``stiffness_fraction`` is the granted share of the stiffness asked for. ``brake`` is whether brakes take
-    part in it, ``friction_actuator`` what renders its friction.
-    """
-
-    stiffness_n_per_m: float | None = None
-    stiffness_fraction: float | None = None
-    damping_n_s_per_m: float | None = None
-    brake: bool = False
-    passivity: bool = False
-    friction_actuator: Literal["motor", "brake"] | None = None
-    why: list[str] = []
-
-
-class GrantedWall(Report):
-    """What one wall of a scene was granted; ``stiffness_n_per_m`` is the one in ``granted``."""
-
-    id: str
-    stiffness_n_per_m: float | None
-    granted: Granted
-
-
-class SceneResult(Report):
-    """The outcome of an edit. ``applied`` is null when nothing reached a loop; ``note`` says why."""
-
-    scene: Scene
-    etag: str
-    revision: int
-    applied: Applied | None
-    dry_run: bool = False
-    note: str | None = None
-    walls: list[GrantedWall] = []

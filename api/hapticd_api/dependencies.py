@@ -8,6 +8,7 @@ from fastapi import Depends, Header, Path, Query
 from starlette.requests import HTTPConnection
 
 from hapticd.device import Device
+from hapticd.edit_terms import Terms
 from hapticd.station import Station
 
 
@@ -39,3 +40,13 @@ IfNoneMatch = Annotated[
     Header(description="Answer 304 if the scene still has this ETag; on a PUT, `*` makes a new wall only"),
 ]
 DryRun = Annotated[bool, Query(description="Validate and predict, change nothing")]
+Force = Annotated[
+    bool, Query(description="Let walls in over their stability budget; passivity then bounds them")
+]
+
+
+def _terms(if_match: IfMatch = None, dry_run: DryRun = False, force: Force = False) -> Terms:
+    return Terms(if_match=if_match, dry_run=dry_run, force=force)
+
+
+EditTerms = Annotated[Terms, Depends(_terms)]

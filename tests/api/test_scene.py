@@ -183,7 +183,7 @@ async def test_wall_is_told_what_it_is_granted_on_write_and_on_read(http: httpx.
     assert (written["granted"]["stiffness_n_per_m"], written["granted"]["stiffness_fraction"]) == (1500, 0.5)
     assert "at most 1500 N/m at this pose" in written["granted"]["why"][0]
     read = (await http.get(f"{WALLS}/floor")).json()
-    assert read["granted"] == written["granted"]
+    assert read["granted"] == {**written["granted"], "budget": None}
     assert (await http.get(WALLS)).json()["walls"] == [read]
     again = await http.put(f"{WALLS}/floor", json=read)
     assert (again.status_code, again.json()["wall"]) == (200, written["wall"])
@@ -214,3 +214,40 @@ async def test_every_example_of_a_patch_is_accepted(http: httpx.AsyncClient, nam
     await http.put(f"{WALLS}/floor", json=floor())
     answer = await http.patch(f"{WALLS}/floor", json=PATCH_EXAMPLES[name]["value"])
     assert answer.status_code == 200, answer.text
+
+
+STEEP = {"type": "damper", "damping_n_s_per_m": 10_000}
+
+
+async def test_wall_over_the_stability_budget_is_refused_and_force_bounds_it(http: httpx.AsyncClient) -> None:
+    refused = problem_of(
+        await http.put(f"{WALLS}/floor", json=floor(law=STEEP)), 422, "over-stability-budget"
+    )
+    assert refused["pointer"] == "/law/damping_n_s_per_m"
+    assert "force=true" in refused["hint"]
+    problem_of(await http.get(f"{WALLS}/floor"), 404, "wall-not-found")
+    result = (await http.put(f"{WALLS}/floor?force=true", json=floor(law=STEEP))).json()
+    assert result["wall"]["law"]["passivity"] is True
+    assert result["granted"]["forced"] is True
+    assert result["granted"]["budget"]["verdict"] == "unstable"
+
+
+async def test_every_way_to_write_a_wall_asks_the_stability_budget(http: httpx.AsyncClient) -> None:
+    await http.put(f"{WALLS}/floor", json=floor())
+    off = floor(id="off", law=STEEP, enabled=False)
+    assert (await http.put(f"{WALLS}/off", json=off)).status_code == 201
+    answers = {
+        "/law/damping_n_s_per_m": await http.post(WALLS, json=floor(id="steep", law=STEEP)),
+        "/walls/0/law/damping_n_s_per_m": await http.put(SCENE, json={"walls": [floor(law=STEEP)]}),
+    }
+    for pointer, answer in answers.items():
+        assert problem_of(answer, 422, "over-stability-budget")["pointer"] == pointer
+    for name, patch in {"floor": {"law": STEEP}, "off": {"enabled": True}}.items():
+        answer = await http.patch(f"{WALLS}/{name}", json=patch)
+        assert problem_of(answer, 422, "over-stability-budget")["pointer"] == "/law/damping_n_s_per_m"
+
+
+async def test_dry_run_tells_the_stability_budget(http: httpx.AsyncClient) -> None:
+    result = (await http.put(f"{WALLS}/floor?dry_run=true", json=floor())).json()
+    assert result["applied"] is None
+    assert result["granted"]["budget"]["verdict"] in ("passive", "stable")

@@ -36,6 +36,11 @@ class Bench:
         self.device.attach(self.link)
         await self.device.restore()
         self.link.requests.clear()
+        self.link.asked.clear()
+
+    async def sent(self) -> None:
+        """Waits until a request has gone to the servo."""
+        await asyncio.wait_for(self.link.asked.wait(), 10.0)
 
     def stored(self) -> dict[str, Any]:
         """The scene file."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +28,7 @@ class FakeLink:
 
     def __init__(self, device_id: str = "phantom", pid: int = 4242) -> None:
         self.requests: list[dict[str, Any]] = []
+        self.asked = asyncio.Event()
         self.mute = False
         self.forgetful = False
         self.full = False
@@ -91,6 +93,7 @@ class FakeLink:
         if self.full:
             raise BlockingIOError
         self.requests.append(json.loads(request_json))
+        self.asked.set()
         if not self.mute:
             ack = self._answer(len(self.requests), self.requests[-1])
             self._acks += [] if self.forgetful else [ack]

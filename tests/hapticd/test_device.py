@@ -120,7 +120,7 @@ async def test_losing_the_servo_ends_requests_that_wait(attached: Bench) -> None
 async def test_estop_does_not_wait_behind_an_edit_that_hangs(attached: Bench) -> None:
     attached.link.mute = True
     edit = asyncio.create_task(attached.device.put_wall(make_wall("floor")))
-    await settle()
+    await attached.sent()
     attached.link.mute = False
     await attached.device.engage_estop()
     assert attached.device.snapshot().flags.estop

@@ -7,7 +7,7 @@ import pytest
 from hapticd.granter import Granter
 from hapticd.model import load_model
 from hapticd.scene import Scene
-from hapticd.snapshot import Granted
+from hapticd.scene_result import Granted
 from tests.hapticd.conftest import make_wall
 
 PHANTOM = Granter.of_model(load_model("phantom-1.0"))

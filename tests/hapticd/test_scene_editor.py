@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from hapticd import channel
+from hapticd.edit_terms import Terms
 from hapticd.problem import Problem
 from hapticd.scene import Scene
 from tests.hapticd.conftest import Bench, make_wall, settle
@@ -59,10 +60,10 @@ async def test_scene_survives_a_restart_of_the_daemon(attached: Bench) -> None:
 async def test_stale_etag_changes_nothing(attached: Bench) -> None:
     await attached.device.put_wall(make_wall("floor"))
     etag = attached.device.scene_etag
-    await attached.device.put_wall(make_wall("roof"), if_match=etag)
+    await attached.device.put_wall(make_wall("roof"), Terms(if_match=etag))
     sent = len(attached.link.requests)
     with pytest.raises(Problem) as caught:
-        await attached.device.delete_wall("floor", if_match=etag)
+        await attached.device.delete_wall("floor", Terms(if_match=etag))
     assert (caught.value.slug, caught.value.status) == ("revision-stale", 412)
     assert attached.device.scene_etag in caught.value.detail
     assert len(attached.link.requests) == sent
@@ -72,19 +73,19 @@ async def test_stale_etag_changes_nothing(attached: Bench) -> None:
 @pytest.mark.parametrize("form", ["{}", "*", '"99", {}'])
 async def test_etag_that_fits_is_accepted_in_every_form(attached: Bench, form: str) -> None:
     if_match = form.format(attached.device.scene_etag)
-    assert (await attached.device.put_wall(make_wall("floor"), if_match=if_match)).applied
+    assert (await attached.device.put_wall(make_wall("floor"), Terms(if_match=if_match))).applied
 
 
 async def test_dry_run_checks_and_changes_nothing(attached: Bench) -> None:
     etag = attached.device.scene_etag
-    result = await attached.device.put_wall(make_wall("floor", eta=0.5), dry_run=True)
+    result = await attached.device.put_wall(make_wall("floor", eta=0.5), Terms(dry_run=True))
     assert (result.applied, result.dry_run, result.etag) == (None, True, etag)
     assert [wall.stiffness_n_per_m for wall in result.walls] == [1000.0]
     assert attached.link.requests == []
     assert attached.device.scene == Scene()
     flat = {"type": "plane", "point_m": [0, 0], "normal": [0, 1]}
     with pytest.raises(Problem, match="2 components"):
-        await attached.device.put_wall(make_wall("floor", shape=flat), dry_run=True)
+        await attached.device.put_wall(make_wall("floor", shape=flat), Terms(dry_run=True))
 
 
 async def test_edits_at_the_same_time_are_all_kept(attached: Bench) -> None:

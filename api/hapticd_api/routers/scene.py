@@ -8,9 +8,9 @@ from fastapi import APIRouter, Body
 from starlette.responses import Response
 
 from hapticd.scene import Scene
-from hapticd.snapshot import SceneResult
+from hapticd.scene_result import SceneResult
 from hapticd_api.conditional import conditional, tagged
-from hapticd_api.dependencies import DeviceDep, DryRun, IfMatch, IfNoneMatch
+from hapticd_api.dependencies import DeviceDep, EditTerms, IfNoneMatch
 from hapticd_api.document import checked, merged
 from hapticd_api.problem_response import problem_answers
 
@@ -22,6 +22,7 @@ _ERRORS = problem_answers(
     "unknown-field",
     "dimension-mismatch",
     "no-brakes",
+    "over-stability-budget",
     "too-many-walls",
     "revision-stale",
     "storage-failed",
@@ -53,11 +54,9 @@ async def get_scene(device: DeviceDep, if_none_match: IfNoneMatch = None) -> Res
     response_model=SceneResult,
     responses=_ERRORS,
 )
-async def replace_scene(
-    device: DeviceDep, scene: Scene, if_match: IfMatch = None, dry_run: DryRun = False
-) -> Response:
+async def replace_scene(device: DeviceDep, scene: Scene, terms: EditTerms) -> Response:
     """Replaces the scene whole, at one tick, cross-faded so that no force steps."""
-    result = await device.replace_scene(scene, if_match=if_match, dry_run=dry_run)
+    result = await device.replace_scene(scene, terms)
     return tagged(result, result.etag)
 
 
@@ -71,13 +70,12 @@ async def replace_scene(
 async def patch_scene(
     device: DeviceDep,
     patch: Annotated[dict[str, Any], Body(openapi_examples=_PATCH_EXAMPLES)],
-    if_match: IfMatch = None,
-    dry_run: DryRun = False,
+    terms: EditTerms,
 ) -> Response:
     """Merges a JSON merge patch (RFC 7396) into the scene; what it does not name stays, lists are whole."""
 
     def change(scene: Scene) -> Scene:
         return checked(Scene, merged(scene.model_dump(mode="json"), patch))
 
-    result = await device.edit_scene(change, if_match=if_match, dry_run=dry_run)
+    result = await device.edit_scene(change, terms)
     return tagged(result, result.etag)

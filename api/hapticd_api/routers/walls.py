@@ -11,12 +11,12 @@ from hapticd.device import Device
 from hapticd.friction import Friction
 from hapticd.laws import Law
 from hapticd.problem import Problem
-from hapticd.scene import Scene
+from hapticd.scene_result import Granted, SceneResult
 from hapticd.shapes import Shape
-from hapticd.snapshot import Applied, Granted, Report, SceneResult
+from hapticd.snapshot import Applied, Report
 from hapticd.wall import Wall
 from hapticd_api.conditional import conditional, tagged
-from hapticd_api.dependencies import DeviceDep, DryRun, IfMatch, IfNoneMatch, WallId
+from hapticd_api.dependencies import DeviceDep, EditTerms, IfNoneMatch, WallId
 from hapticd_api.document import checked, merged
 from hapticd_api.problem_response import problem_answers
 from hapticd_api.wall_examples import PATCH_EXAMPLES, WALL_EXAMPLES
@@ -30,6 +30,7 @@ _WRITE_ERRORS = (
     "unknown-field",
     "dimension-mismatch",
     "no-brakes",
+    "over-stability-budget",
     "too-many-walls",
     "revision-stale",
     "storage-failed",
@@ -118,13 +119,12 @@ async def list_walls(device: DeviceDep, if_none_match: IfNoneMatch = None) -> Re
 async def create_wall(
     device: DeviceDep,
     wall: Annotated[Wall, Body(openapi_examples=WALL_EXAMPLES)],
-    if_match: IfMatch = None,
-    dry_run: DryRun = False,
+    terms: EditTerms,
 ) -> Response:
     """Adds a wall at the end of the scene; 409 if its id is taken. It fades in, also around the tool."""
-    result = await device.put_wall(wall, if_match=if_match, dry_run=dry_run, create_only=True)
+    result = await device.put_wall(wall, terms, create_only=True)
     location = f"/api/v1/devices/{device.device_id}/scene/walls/{wall.id}"
-    status = 200 if dry_run else 201
+    status = 200 if terms.dry_run else 201
     return tagged(_wall_result(result, wall.id), result.etag, status=status, location=location)
 
 
@@ -167,17 +167,17 @@ async def put_wall(
     device: DeviceDep,
     wall_id: WallId,
     document: Annotated[dict[str, Any], Body()],
-    if_match: IfMatch = None,
+    terms: EditTerms,
     if_none_match: IfNoneMatch = None,
-    dry_run: DryRun = False,
 ) -> Response:
     """Makes the wall, or replaces it in its place. `id` may be left out: the address names it."""
     wall = checked(Wall, {"id": wall_id, **document})
     _check_name(wall, wall_id)
     is_new = not _has(device, wall_id)
     create_only = if_none_match is not None and if_none_match.strip() == "*"
-    result = await device.put_wall(wall, if_match=if_match, dry_run=dry_run, create_only=create_only)
-    return tagged(_wall_result(result, wall_id), result.etag, status=201 if is_new and not dry_run else 200)
+    result = await device.put_wall(wall, terms, create_only=create_only)
+    status = 201 if is_new and not terms.dry_run else 200
+    return tagged(_wall_result(result, wall_id), result.etag, status=status)
 
 
 @router.patch(
@@ -191,21 +191,19 @@ async def patch_wall(
     device: DeviceDep,
     wall_id: WallId,
     patch: Annotated[dict[str, Any], Body(openapi_examples=PATCH_EXAMPLES)],
-    if_match: IfMatch = None,
-    dry_run: DryRun = False,
+    terms: EditTerms,
 ) -> Response:
     """Merges a JSON merge patch (RFC 7396) into the wall; what it does not name stays.
 
     A shape or law whose `type` changes is replaced whole.
     """
 
-    def change(scene: Scene) -> Scene:
-        before = scene.wall(wall_id) or device.get_wall(wall_id)
+    def change(before: Wall) -> Wall:
         wall = checked(Wall, merged(before.model_dump(mode="json"), patch))
         _check_name(wall, wall_id)
-        return scene.with_wall(wall)
+        return wall
 
-    result = await device.edit_scene(change, if_match=if_match, dry_run=dry_run)
+    result = await device.change_wall(wall_id, change, terms)
     return tagged(_wall_result(result, wall_id), result.etag)
 
 
@@ -216,11 +214,9 @@ async def patch_wall(
     response_model=WallResult,
     responses=problem_answers(*_READ_ERRORS, "revision-stale", "storage-failed", "servo-silent"),
 )
-async def delete_wall(
-    device: DeviceDep, wall_id: WallId, if_match: IfMatch = None, dry_run: DryRun = False
-) -> Response:
+async def delete_wall(device: DeviceDep, wall_id: WallId, terms: EditTerms) -> Response:
     """Takes the wall out of the scene; its force fades out."""
-    result = await device.delete_wall(wall_id, if_match=if_match, dry_run=dry_run)
+    result = await device.delete_wall(wall_id, terms)
     return tagged(_wall_result(result, wall_id), result.etag)
 
 
