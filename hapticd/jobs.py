@@ -43,6 +43,7 @@ class Jobs:
         self._device = device
         self._jobs = {job.id: job for job in self._store.load()}
         self._worker: asyncio.Task[None] | None = None
+        self._stopping = False
         self._running: tuple[Job, asyncio.Task[list[str]]] | None = None
         self._forget_oldest()
 
@@ -90,6 +91,7 @@ class Jobs:
 
     async def stop(self) -> None:
         """Ends the job that runs; those that wait have failed when the daemon comes back."""
+        self._stopping = True
         if self._worker is not None:
             self._worker.cancel()
             with suppress(asyncio.CancelledError):
@@ -116,7 +118,11 @@ class Jobs:
 
     def _note_end(self, job: Job, work: asyncio.Task[list[str]]) -> None:
         error = None if work.cancelled() else work.exception()
-        if work.cancelled():
+        if work.cancelled() and self._stopping:
+            self._end(
+                job, lambda: job.fail(Problem("stopping", "The daemon stopped before the job had ended."))
+            )
+        elif work.cancelled():
             self._end(job, job.cancel)
         elif error is None:
             self._end(job, lambda: job.succeed(work.result()))

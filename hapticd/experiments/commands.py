@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.console import Console
 from rich.markup import escape
 
 from hapticd.cli import JsonOption, console, error_console, reported
@@ -171,5 +172,6 @@ def _print_report(report: Mapping[str, Any]) -> None:
     from hapticd.experiments.claims_table import claims_table
 
     console.print(f"[bold]{escape(report['title'])}[/] [dim]{escape(report['source'])}[/]", soft_wrap=True)
-    # Where nobody's terminal sets the width, a table as wide as its sentences need.
-    console.print(claims_table(report), width=None if console.is_terminal else PIPE_COLUMNS)
+    # Where no terminal sets the width, the table is as wide as its sentences need.
+    wide = console if console.is_terminal else Console(width=PIPE_COLUMNS, highlight=False)
+    wide.print(claims_table(report))

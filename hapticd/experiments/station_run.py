@@ -111,6 +111,7 @@ async def run_on_device(
 
         session = _Session(order, experiment, LentBench(device, loan, station), report)
         thread = asyncio.ensure_future(asyncio.to_thread(session.run))
+        thread.add_done_callback(_heard)
         try:
             return await asyncio.shield(thread)
         except asyncio.CancelledError:
@@ -118,6 +119,12 @@ async def run_on_device(
             # One that does not listen goes on alone: the loan is over, so it reaches the device no more.
             await asyncio.wait({thread}, timeout=CANCEL_S)
             raise
+
+
+def _heard(thread: asyncio.Future[Finished]) -> None:
+    """Takes note of how a cancelled session ended, which nobody waits for."""
+    if not thread.cancelled():
+        thread.exception()
 
 
 class _Session:

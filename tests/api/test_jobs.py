@@ -278,6 +278,14 @@ async def test_jobs_outlive_the_daemon_and_one_cut_short_has_failed(
     assert again.get(cut.json()["id"]).report().error["detail"].startswith("The daemon stopped")
 
 
+async def test_a_daemon_that_stops_ends_its_job(rig: Rig, http: httpx.AsyncClient) -> None:
+    cut = await submit(http, set={"how": "long"})
+    await watched(http, cut, ("running",))
+    await rig.station.jobs.stop()
+    job = await job_of(http, cut)
+    assert (job["state"], job["error"]["type"]) == ("failed", "/problems/stopping")
+
+
 def test_old_jobs_and_their_files_are_forgotten(tmp_path: Path, rig: Rig) -> None:
     store = JobStore(tmp_path / "jobs")
     for index in range(KEPT + 3):
