@@ -19,7 +19,10 @@ from hapticd.experiments.trace_file import write_traces
 
 @dataclass(frozen=True)
 class Order:
-    """What shall be run. ``out`` is where its files go; None: no files. ``jitter`` counts the draws."""
+    """What shall be run. ``out`` is where its files go; None: no files.
+
+    ``jitter`` counts the draws, ``of_draws`` are their settings where they are not those of the run.
+    """
 
     experiment: Experiment
     settings: Settings
@@ -27,6 +30,7 @@ class Order:
     jitter: int = 0
     out: Path | None = None
     state_dir: Path | None = None
+    of_draws: Settings | None = None
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,8 @@ def carry_out(order: Order, progress: Progress | None = None) -> Finished:
     outcome = order.experiment.run(run)
     tallies: list[Tally] = []
     if order.jitter:
-        tallies = jitter(order.experiment, order.settings, order.seed, order.jitter, progress.part(own, 1.0))
+        settings = order.of_draws or order.settings
+        tallies = jitter(order.experiment, settings, order.seed, order.jitter, progress.part(own, 1.0))
     return finish(order, outcome, tallies=tallies)
 
 

@@ -14,12 +14,16 @@ from hapticd.experiments.claims_table import share
 from hapticd.experiments.experiment import Experiment
 from hapticd.experiments.jitter import SPREAD
 from hapticd.experiments.misprints import MISPRINTS
+from hapticd.experiments.parameter_value import shown
 from hapticd.experiments.progress import Progress
 from hapticd.experiments.settings import resolve
 
 PAGE = "reproduction.md"
 IMAGES = Path("images") / "reproduction"
 MARKS = {"holds": "✓ holds", "fails": "✗ fails", "undecidable": "? undecidable"}
+
+OF_DRAWS: Mapping[str, Mapping[str, Any]] = {}
+"""What is set in the draws of experiments that take minutes."""
 
 INTRODUCTION = """# The papers on the twins
 
@@ -60,7 +64,8 @@ def reproduce(
 def _run(chosen: Experiment, draws: int, seed: int, images: Path, progress: Progress) -> Finished:
     images.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as directory:
-        order = Order(chosen, resolve(chosen, {}), seed, draws, Path(directory))
+        of_draws = resolve(chosen, OF_DRAWS.get(chosen.name, {}))
+        order = Order(chosen, resolve(chosen, {}), seed, draws, Path(directory), of_draws=of_draws)
         finished = carry_out(order, progress)
         shutil.copy(Path(directory) / f"{chosen.name}.png", images)
     return finished
@@ -91,6 +96,9 @@ def _section(chosen: Experiment, report: Mapping[str, Any]) -> Iterator[str]:
     uncertain = [parameter.name for parameter in chosen.parameters if parameter.uncertain]
     drawn = ", ".join(f"`{name}`" for name in (*uncertain, *chosen.uncertain))
     yield f"Drawn: {drawn}.\n" if drawn else "Nothing about it is uncertain, so nothing is drawn.\n"
+    if coarser := OF_DRAWS.get(chosen.name):
+        values = ", ".join(f"`{name}={shown(value)}`" for name, value in coarser.items())
+        yield f"In the draws {values}.\n"
 
 
 def _misprints() -> Iterator[str]:
