@@ -13,10 +13,14 @@ const LONE_BRAKE_COS: f64 = core::f64::consts::FRAC_1_SQRT_2;
 /// What is wanted of the joints, and what they meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// τ_d = JᵀF_d, N·m.
+    /// τ_d = JᵀF_d, N·m: what motors and brakes share.
     pub torque_nm: V3,
     /// F_d, N.
     pub force_n: V3,
+    /// Torque that brakes alone may add, N·m.
+    pub hold_nm: V3,
+    /// Torque for the motors alone, N·m.
+    pub motor_only_nm: V3,
     /// J⁻ᵀ, 1/m: its columns are the tip forces of unit joint torques.
     pub force_per_torque: nalgebra::Matrix3<f64>,
     /// q̇, rad/s.
@@ -57,10 +61,21 @@ pub fn usable(model: &BrakeModel, before: bool, torque_nm: f64, qd: f64, hand_nm
 /// while the hand no longer pushes against it (physics §5, after KS Fig. 5).
 #[must_use]
 pub fn releasing(model: &BrakeModel, load: &Load) -> bool {
+    gives_in(model, load, &load.torque_nm, &load.force_n)
+}
+
+/// Whether brakes that hold have to let go together, likewise.
+#[must_use]
+pub fn letting_go(model: &BrakeModel, load: &Load) -> bool {
+    let force_n = load.force_per_torque * load.hold_nm;
+    gives_in(model, load, &load.hold_nm, &force_n)
+}
+
+fn gives_in(model: &BrakeModel, load: &Load, torque_nm: &V3, force_n: &V3) -> bool {
     if load.qd.amax() > model.omega_on_rad_per_s {
-        load.torque_nm.dot(&load.qd) > 0.0
+        torque_nm.dot(&load.qd) > 0.0
     } else if load.qd.amax() < model.omega_off_rad_per_s {
-        load.force_n.dot(&load.hand_force_n) >= 0.0
+        force_n.dot(&load.hand_force_n) >= 0.0
     } else {
         false
     }
@@ -85,7 +100,11 @@ pub fn lone_brake_nm(load: &Load, joint: usize) -> f64 {
 pub struct Allocator {
     model: BrakeModel,
     hand_over: f64,
+    /// Brakes that may take part of the shared torque.
     usable: [bool; 3],
+    /// Brakes that may hold.
+    holding: [bool; 3],
+    /// What the motors gave of the shared torque, N·m.
     motor_nm: V3,
 }
 
@@ -97,11 +116,12 @@ impl Allocator {
             model: *model,
             hand_over: 1.0 - (-period_s / HAND_OVER_S).exp(),
             usable: [false; 3],
+            holding: [false; 3],
             motor_nm: V3::zeros(),
         }
     }
 
-    /// Splits `load` in the given mode.
+    /// Splits `load` in the given mode. What only motors give is theirs in every mode.
     pub fn split(&mut self, mode: Allocation, load: &Load) -> Split {
         self.decide(mode, load);
         let brake_nm = self.brake_nm(mode, load);
@@ -112,23 +132,29 @@ impl Allocator {
             }
         };
         Split {
-            motor_nm: self.motor_nm,
+            motor_nm: load.motor_only_nm + self.motor_nm,
             brake_nm,
-            usable: self.usable,
+            usable: core::array::from_fn(|i| self.usable[i] || self.holding[i]),
         }
     }
 
     fn decide(&mut self, mode: Allocation, load: &Load) {
-        let barred = mode == Allocation::MotorOnly || releasing(&self.model, load);
-        for (i, decision) in self.usable.iter_mut().enumerate() {
-            *decision = !barred
-                && usable(
-                    &self.model,
-                    *decision,
-                    load.torque_nm[i],
-                    load.qd[i],
-                    load.hand_torque_nm[i],
-                );
+        let motors = mode == Allocation::MotorOnly;
+        let shares = !motors && !releasing(&self.model, load);
+        let holds = !motors && !letting_go(&self.model, load);
+        let model = self.model;
+        let may = |before: bool, torque_nm: &V3, i: usize| {
+            usable(
+                &model,
+                before,
+                torque_nm[i],
+                load.qd[i],
+                load.hand_torque_nm[i],
+            )
+        };
+        for i in 0..3 {
+            self.usable[i] = shares && may(self.usable[i], &load.torque_nm, i);
+            self.holding[i] = holds && may(self.holding[i], &load.hold_nm, i);
         }
     }
 
@@ -136,13 +162,22 @@ impl Allocator {
         let lone = mode == Allocation::BrakeOnly
             && self.usable.iter().filter(|usable| **usable).count() == 1;
         V3::from_fn(|i, _| {
-            let wanted_nm = match (self.usable[i], lone) {
+            let shared_nm = match (self.usable[i], lone) {
                 (false, _) => 0.0,
                 (true, true) => lone_brake_nm(load, i),
                 (true, false) => load.torque_nm[i].abs(),
             };
+            let wanted_nm = shared_nm + self.held_nm(load, i).abs();
             wanted_nm.min(self.model.torque_max_nm[i])
         })
+    }
+
+    fn held_nm(&self, load: &Load, joint: usize) -> f64 {
+        if self.holding[joint] {
+            load.hold_nm[joint]
+        } else {
+            0.0
+        }
     }
 
     /// τ_m: what the brake, which acts against the motion, leaves open. At rest the brake only
@@ -151,7 +186,7 @@ impl Allocator {
         let (wanted, built_up) = (load.torque_nm[joint], load.brake_nm[joint]);
         if load.qd[joint].abs() >= self.model.omega_off_rad_per_s {
             let sense = (load.qd[joint] / self.model.omega_on_rad_per_s).clamp(-1.0, 1.0);
-            wanted + sense * built_up
+            bridge_nm(wanted, self.held_nm(load, joint), -sense * built_up)
         } else if self.usable[joint] {
             let left_open = wanted.signum() * (wanted.abs() - built_up).max(0.0);
             self.motor_nm[joint] + self.hand_over * (left_open - self.motor_nm[joint])
@@ -159,4 +194,14 @@ impl Allocator {
             wanted
         }
     }
+}
+
+/// The least motor torque, N·m, with which a brake that gives `brake_nm` comes to `wanted_nm`, or
+/// to anything between that and what it may hold beside it: the motor bridges the brake's rise and
+/// cancels its decay, and does not work against a brake that is to hold.
+#[must_use]
+pub fn bridge_nm(wanted_nm: f64, hold_nm: f64, brake_nm: f64) -> f64 {
+    let to_wanted = wanted_nm - brake_nm;
+    let to_held = to_wanted + hold_nm;
+    0.0_f64.clamp(to_wanted.min(to_held), to_wanted.max(to_held))
 }

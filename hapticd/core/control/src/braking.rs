@@ -13,6 +13,7 @@ use crate::stage::Wanted;
 pub struct Braking {
     model: BrakeModel,
     rise_nm: f64,
+    tip_force_n: f64,
     brakes: Brakes,
     allocator: Allocator,
 }
@@ -24,6 +25,7 @@ impl Braking {
         Self {
             model: *model,
             rise_nm: limits.brake_slew_nm_per_s * period_s,
+            tip_force_n: limits.tip_force_n,
             brakes: Brakes::new(model, period_s),
             allocator: Allocator::new(model, period_s),
         }
@@ -46,18 +48,41 @@ impl Braking {
         self.brakes.step(asked_nm);
     }
 
-    /// Shares `share` of the torque wanted between motors and brakes.
+    /// Shares `share` of the torque wanted between motors and brakes, which may hold as far as the
+    /// tip's limit leaves room.
     pub fn split(&mut self, wanted: &Wanted<'_>, share: f64) -> Split {
+        let (demand, pose) = (wanted.demand, wanted.pose);
+        let shared_nm = demand.shared_nm();
         let load = Load {
-            torque_nm: share * wanted.demand.torque_nm,
-            force_n: share * wanted.demand.force_n,
-            force_per_torque: wanted.pose.jacobian_inverse.transpose(),
-            qd: wanted.pose.qd,
-            hand_torque_nm: wanted.pose.jacobian.tr_mul(&wanted.hand_force_n),
+            torque_nm: share * shared_nm,
+            force_n: share * self.shared_force_n(wanted),
+            hold_nm: self.room(wanted, share) * demand.hold_nm,
+            motor_only_nm: share * demand.motor_only_nm,
+            force_per_torque: pose.jacobian_inverse.transpose(),
+            qd: pose.qd,
+            hand_torque_nm: pose.jacobian.tr_mul(&wanted.hand_force_n),
             hand_force_n: wanted.hand_force_n,
             brake_nm: self.brakes.torque_nm(),
         };
         self.allocator.split(wanted.allocation, &load)
+    }
+
+    /// Force that motors and brakes share, N.
+    fn shared_force_n(&self, wanted: &Wanted<'_>) -> V3 {
+        let motor_only_nm = &wanted.demand.motor_only_nm;
+        wanted.demand.force_n - wanted.pose.jacobian_inverse.tr_mul(motor_only_nm)
+    }
+
+    /// Largest share of the hold that keeps the whole force within the tip's limit (law 1).
+    fn room(&self, wanted: &Wanted<'_>, share: f64) -> f64 {
+        let inverse = &wanted.pose.jacobian_inverse;
+        let held_n = inverse.tr_mul(&wanted.demand.hold_nm).norm();
+        let given_n = share * inverse.tr_mul(&wanted.demand.torque_nm).norm();
+        if held_n > 0.0 {
+            ((self.tip_force_n - given_n) / held_n).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
     }
 
     /// Bounds what is asked of the brakes, N·m, `before_nm` being what was sent last; and the
@@ -68,7 +93,7 @@ impl Braking {
             bound_brake(&BrakeAsk {
                 asked_nm: asked_nm[i],
                 before_nm: before_nm[i],
-                wanted_nm: wanted.demand.torque_nm[i],
+                wanted_nm: against_motion_nm(wanted, i),
                 qd: wanted.pose.qd[i],
                 max_nm: self.model.torque_max_nm[i],
                 rise_nm: self.rise_nm,
@@ -82,4 +107,15 @@ impl Braking {
         };
         (brake_nm, acted)
     }
+}
+
+/// Torque wanted of a brake, N·m: what it shares and what it holds, as far as that is against the
+/// motion of its joint.
+fn against_motion_nm(wanted: &Wanted<'_>, joint: usize) -> f64 {
+    let qd = wanted.pose.qd[joint];
+    let parts = [
+        wanted.demand.shared_nm()[joint],
+        wanted.demand.hold_nm[joint],
+    ];
+    parts.iter().filter(|part| *part * qd < 0.0).sum()
 }

@@ -56,7 +56,7 @@ impl Controller {
     pub fn new(model: &DeviceModel, rate_hz: f64) -> Result<Self, ModelError> {
         check(model, rate_hz)?;
         let period_s = rate_hz.recip();
-        let mut renderer = Renderer::new(model);
+        let mut renderer = Renderer::new(model, period_s);
         let stage = Stage::new(model, period_s);
         let home = V3::from(model.joints.home_rad);
         let pose = JointState::at(&model.kinematics, home, V3::zeros());
@@ -65,7 +65,7 @@ impl Controller {
             guard: Guard::new(model, period_s),
             estimator: Estimator::new(model),
             pose,
-            rendering: renderer.render(&pose, &stage.motors().residual_ohm()),
+            rendering: renderer.render(&pose, &stage.motors().residual_ohm(), None),
             renderer,
             stage,
         })
@@ -110,11 +110,13 @@ impl Controller {
         let fresh = self.estimate(reading, input.observation);
         self.settle(fresh, input.observation);
         self.renderer.advance(self.period_s);
+        let hand_force_n = self.hand_force_n(input.observation);
         if fresh {
             let dr_ohm = self.stage.motors().residual_ohm();
-            self.rendering = self.renderer.render(&self.pose, &dr_ohm);
+            let hand = hand_force_n.as_ref();
+            self.rendering = self.renderer.render(&self.pose, &dr_ohm, hand);
         }
-        self.send(fresh, input.observation);
+        self.send(fresh, hand_force_n);
         self.publish(input, fresh, record);
         self.stage.sent().command
     }
@@ -145,11 +147,11 @@ impl Controller {
         }
     }
 
-    fn send(&mut self, fresh: bool, observation: &Observation) {
+    fn send(&mut self, fresh: bool, hand_force_n: Option<V3>) {
         let wanted = Wanted {
             pose: &self.pose,
             demand: &self.rendering.demand,
-            hand_force_n: self.hand_force_n(observation),
+            hand_force_n: hand_force_n.unwrap_or_default(),
             allocation: self.renderer.layers().top().allocation,
             fresh,
         };
@@ -162,16 +164,13 @@ impl Controller {
         }
     }
 
-    /// The measured force of the hand on the device, N; zero where none is measured, and where
-    /// the sensor has a fault: then it is no value (law 4).
-    fn hand_force_n(&self, observation: &Observation) -> V3 {
+    /// The measured force of the hand on the device, N; none where the sensor has a fault: then it
+    /// is no value (law 4).
+    fn hand_force_n(&self, observation: &Observation) -> Option<V3> {
         let faults = self.guard.machine().faults;
         let faulty = faults.contains(Fault::SensorStale) || faults.contains(Fault::SensorSaturated);
-        if faulty || observation.status & status::FORCE_PRESENT == 0 {
-            V3::zeros()
-        } else {
-            observation.force_n.into()
-        }
+        let believed = !faulty && observation.status & status::FORCE_PRESENT != 0;
+        believed.then(|| observation.force_n.into())
     }
 
     fn publish(&self, input: &TickInput<'_>, fresh: bool, record: &mut TickRecord) {

@@ -2,19 +2,50 @@
 //! in front of torque-commanded motors.
 
 use crate::estimate::JointState;
-use crate::linear::V3;
+use crate::law::spring::damper_share;
+use crate::linear::{M3, V3};
 use crate::mapping::JointSetPoint;
-use crate::model::{SpringDriveModel, TorqueDriveModel};
+use crate::model::SpringDriveModel;
 
 /// What the coupling asks of the actuators, before any limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointDemand {
-    /// Joint torque, N·m; for a spring drive what the voltage settles to.
+    /// Joint torque wanted of motors and brakes, N·m; for a spring drive what the voltage settles
+    /// to.
     pub torque_nm: V3,
+    /// Part of it that motors alone give, N·m.
+    pub motor_only_nm: V3,
+    /// Torque that brakes alone may add, N·m: it only ever acts against the motion.
+    pub hold_nm: V3,
     /// Force at the tip, N; zero for a spring drive at a singularity.
     pub force_n: V3,
-    /// e_W, V; zero for a torque drive.
+    /// e_W of the set-point, V; zero for a torque drive.
     pub motor_v: V3,
+}
+
+impl JointDemand {
+    /// Asks for one more tip force, N, of motors and brakes together.
+    pub fn add_shared(&mut self, jacobian: &M3, force_n: &V3) {
+        self.torque_nm += jacobian.tr_mul(force_n);
+        self.force_n += force_n;
+    }
+
+    /// Asks for one more tip force, N, of the motors alone.
+    pub fn add_motor_only(&mut self, jacobian: &M3, force_n: &V3) {
+        self.add_shared(jacobian, force_n);
+        self.motor_only_nm += jacobian.tr_mul(force_n);
+    }
+
+    /// Lets brakes hold the tip with up to one more force, N.
+    pub fn add_hold(&mut self, jacobian: &M3, force_n: &V3) {
+        self.hold_nm += jacobian.tr_mul(force_n);
+    }
+
+    /// Joint torque that motors and brakes share, N·m.
+    #[must_use]
+    pub fn shared_nm(&self) -> V3 {
+        self.torque_nm - self.motor_only_nm
+    }
 }
 
 /// e_W = k_T θ̇_Sd + K_D (θ̇_Sd − θ̇) + K_P (θ_Sd − θ) with θ = ρq (WN eq. 10), and the joint
@@ -40,6 +71,7 @@ pub fn spring_demand(
         torque_nm,
         force_n: state.jacobian_inverse.tr_mul(&torque_nm),
         motor_v,
+        ..JointDemand::default()
     }
 }
 
@@ -64,36 +96,12 @@ pub fn dc_stiffness(model: &SpringDriveModel, dr_ohm: &V3) -> V3 {
         .component_mul(&V3::from(model.k_p_v_per_rad))
 }
 
-/// F = k (x_Sd − x) + b (ẋ_Sd − ẋ), τ = JᵀF. Free space gives no force.
-///
-/// A wall does not pull: the damper is scaled down until the force has no component against
-/// x_Sd − x. Scaled as a whole it stays dissipative, also at a corner.
+/// F = spring + s·damper, N, τ = JᵀF, with the share s at which no wall pulls; free space gives no
+/// force. Of a set-point: spring k (x_Sd − x) and damper b (ẋ_Sd − ẋ).
 #[must_use]
-pub fn torque_demand(
-    model: &TorqueDriveModel,
-    state: &JointState,
-    x_sd: &V3,
-    xd_sd: &V3,
-) -> JointDemand {
-    let spring = model.stiffness_n_per_m * (x_sd - state.x);
-    let damper = model.damping_n_s_per_m * (xd_sd - state.xd);
-    let force_n = spring + damper_share(&spring, &damper) * damper;
-    JointDemand {
-        torque_nm: state.jacobian.tr_mul(&force_n),
-        force_n,
-        motor_v: V3::zeros(),
-    }
-}
-
-/// Largest s in 0…1 with (spring + s·damper)·spring ≥ 0; 0 without a spring force.
-fn damper_share(spring: &V3, damper: &V3) -> f64 {
-    let push = spring.norm_squared();
-    let pull = -damper.dot(spring);
-    if push <= 0.0 {
-        0.0
-    } else if pull > push {
-        push / pull
-    } else {
-        1.0
-    }
+pub fn torque_demand(jacobian: &M3, spring_n: &V3, damper_n: &V3) -> JointDemand {
+    let mut demand = JointDemand::default();
+    let force_n = spring_n + damper_share(spring_n, damper_n) * damper_n;
+    demand.add_shared(jacobian, &force_n);
+    demand
 }

@@ -32,19 +32,25 @@ pub fn motion(record: &mut TickRecord, pose: &JointState, rendering: &Rendering)
     record.setpoint_velocity_m_per_s = rendering.set_point.xd_sd.into();
     record.stiffness_n_per_m = rendering.stiffness_n_per_m;
     let contact = &rendering.contact;
-    let touched = contact.count > 0;
     record.contact_count = contact.count as u64;
-    record.contact_wall = if touched {
-        contact.wall as u64
-    } else {
-        NO_WALL
-    };
-    record.touched_walls = [NO_WALL; 3];
+    record.contact_wall = named(contact.wall);
+    record.touched_walls = contact.touched.map(named);
+    record.proxy_position_m = contact.proxy.into();
     record.passivity_wall = NO_WALL;
     record.contact_depth_m = contact.depth_m;
     record.contact_normal = contact.normal.into();
     record.joint_torque_demand_nm = rendering.demand.torque_nm.into();
+    record.shared_torque_nm = rendering.demand.shared_nm().into();
+    record.hold_torque_nm = rendering.demand.hold_nm.into();
     record.tip_force_demand_n = rendering.demand.force_n.into();
+}
+
+fn named(wall: usize) -> u64 {
+    if wall == usize::MAX {
+        NO_WALL
+    } else {
+        wall as u64
+    }
 }
 
 /// What went out.

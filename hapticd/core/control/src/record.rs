@@ -139,6 +139,8 @@ record! {
     tip_force_n: Axes, "N", "Tip force the motors and brakes give, by the actuator model";
     sensor_force_n: Axes, "N", "Force of the hand on the device, measured; zero without a sensor";
     joint_torque_demand_nm: Axes, "N·m", "Joint torque asked for, before allocation";
+    shared_torque_nm: Axes, "N·m", "Part of it that motors and brakes may share";
+    hold_torque_nm: Axes, "N·m", "Joint torque that brakes alone may add, before allocation";
     motor_torque_nm: Axes, "N·m", "Joint torque asked of the motors";
     motor_torque_estimate_nm: Axes, "N·m", "Joint torque the motors give, by the actuator model";
     motor_v: Axes, "V", "e_W of each spring drive";

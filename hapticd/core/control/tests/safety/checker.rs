@@ -224,7 +224,8 @@ impl<'a> Tick<'a> {
         let holding = self.holds_brakes() && self.record.state != ENABLED;
         for i in 0..3 {
             let qd = self.record.joint_velocity_rad_per_s[i];
-            let along = self.record.joint_torque_demand_nm[i] * qd >= 0.0;
+            let parts_nm = [self.record.shared_torque_nm, self.record.hold_torque_nm];
+            let along = parts_nm.iter().all(|part_nm| part_nm[i] * qd >= 0.0);
             let moving = qd.abs() > brakes.omega_off_rad_per_s;
             let braked = self.command.brake_torque_nm[i] > 0.0;
             assert!(

@@ -70,7 +70,9 @@ impl TorqueDrive {
     #[pyo3(signature = (*, q, qd, x_sd, xd_sd))]
     fn demand(&self, q: Axes, qd: Axes, x_sd: Axes, xd_sd: Axes) -> [Axes; 2] {
         let state = JointState::at(&self.kinematics, q.into(), qd.into());
-        let demand = couple::torque_demand(&self.drive, &state, &x_sd.into(), &xd_sd.into());
+        let spring_n = self.drive.stiffness_n_per_m * (V3::from(x_sd) - state.x);
+        let damper_n = self.drive.damping_n_s_per_m * (V3::from(xd_sd) - state.xd);
+        let demand = couple::torque_demand(&state.jacobian, &spring_n, &damper_n);
         [demand.torque_nm, demand.force_n].map(Axes::from)
     }
 }

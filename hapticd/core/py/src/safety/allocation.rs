@@ -62,6 +62,7 @@ impl Allocator {
             hand_torque_nm: hand_torque_nm.into(),
             hand_force_n: hand_force_n.into(),
             brake_nm: brake_nm.into(),
+            ..allocate::Load::default()
         };
         let split = self.0.split(allocation(mode)?, &load);
         Ok((split.motor_nm.into(), split.brake_nm.into(), split.usable))
