@@ -46,7 +46,11 @@ class Wall:
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """How a push into the wall went. ``motion_m``: peak to peak across the wall in the watched part."""
+    """How a push into the wall went.
+
+    ``motion_m`` is peak to peak across the wall in the watched part, less a parabola: a soft wall that still
+    gives way under its damper is no oscillation.
+    """
 
     motion_m: float
     touching: bool
@@ -62,9 +66,12 @@ def bound_m(loop: DeviceLoop) -> float:
     return max(SETTLED_M, SETTLED_QUANTA * loop.tip.quantum_m)
 
 
-def push(model: Model, rate_hz: float, seed: int = 1) -> Contact:
-    """Lets the hand of the twin push into a rigid wall, with the drive of ``model``. About 10 ms of work."""
-    wall, force_n = home_wall(model), PUSH_SHARE * json.loads(model.device_json)["limits"]["tip_force_n"]
+def push(model: Model, rate_hz: float, seed: int = 1, *, share: float = PUSH_SHARE) -> Contact:
+    """Lets the hand of the twin push into a rigid wall, with the drive of ``model``. About 10 ms of work.
+
+    ``share`` is the force of the push, of the device's largest.
+    """
+    wall, force_n = home_wall(model), share * json.loads(model.device_json)["limits"]["tip_force_n"]
     run = TwinRun(model, rate_hz=rate_hz, seed=seed)
     run.scene({"allocation": "motor_only", "walls": [rigid_plane(wall.normal, wall.offset_m)]})
     try:
@@ -78,8 +85,11 @@ def push(model: Model, rate_hz: float, seed: int = 1) -> Contact:
 
 
 def _contact(watched: NDArray[Any], wall: Wall) -> Contact:
+    across_m = watched["tip_position_m"] @ np.array(wall.normal)
+    time = np.linspace(-1.0, 1.0, len(across_m))
+    drift_m = np.polynomial.polynomial.polyfit(time, across_m, 2)
     return Contact(
-        motion_m=float(np.ptp(watched["tip_position_m"] @ np.array(wall.normal))),
+        motion_m=float(np.ptp(across_m - np.polynomial.polynomial.polyval(time, drift_m))),
         touching=bool(np.all(watched["contact_count"] > 0)),
         faulty=bool(np.any(watched["faults"])),
     )

@@ -28,9 +28,6 @@ LOWEST_SHARE = 0.25
 HIGHEST_SHARE = 50.0
 """Where the way up begins and ends, of the coupling's own stiffness."""
 
-CREEP_S = 0.05
-"""Longest B/K: a wall that gives way more slowly has not come to rest by the end of a push, though stable."""
-
 DELAY_SLACK = 0.1
 """Of a tick: what a delay may exceed whole ticks by without being simulated as one more."""
 
@@ -100,7 +97,7 @@ def _first_unsettled(
     def holds(stiffness: float) -> bool:
         return settles(drive_values(model, loop, stiffness, damping))
 
-    stiffness = max(LOWEST_SHARE * loop.coupling.stiffness_n_per_m, damping / CREEP_S)
+    stiffness = LOWEST_SHARE * loop.coupling.stiffness_n_per_m
     highest = HIGHEST_SHARE * loop.coupling.stiffness_n_per_m
     if not holds(stiffness):
         return 0.0
