@@ -19,7 +19,7 @@ HALF_TURN_DEG = [-19.1, -26.6, -30.0, -23.8, 0, 23.8, 30.0, 26.6, 19.1, 9.9, 0, 
 
 @pytest.fixture(scope="module")
 def outcome() -> Outcome:
-    settings = resolve(EXPERIMENT, {"spacing_deg": 15.0, "measure_s": 0.1})
+    settings = resolve(EXPERIMENT, {"spacing_deg": 30.0})
     return EXPERIMENT.run(Run(EXPERIMENT, settings))
 
 
@@ -28,9 +28,9 @@ def test_transpose_mapping_is_true_to_a_tenth_of_a_degree(outcome: Outcome) -> N
 
 
 def test_inverse_mapping_gives_the_series_of_the_closed_form_twice_a_turn(outcome: Outcome) -> None:
-    np.testing.assert_allclose(outcome.results["inverse"]["error_deg"], 2 * HALF_TURN_DEG, atol=0.3)
+    np.testing.assert_allclose(outcome.results["inverse"]["error_deg"], 2 * HALF_TURN_DEG[::2], atol=0.3)
     assert outcome.results["inverse"]["max_abs_error_deg"] == pytest.approx(30.0, abs=0.3)
-    assert outcome.results["inverse"]["rms_error_deg"] == pytest.approx(21.0, abs=0.3)
+    assert outcome.results["inverse"]["rms_error_deg"] == pytest.approx(20.5, abs=0.2)
 
 
 def test_ripple_and_friction_turn_the_force_by_degrees(outcome: Outcome) -> None:
@@ -49,7 +49,7 @@ def test_the_direction_in_motion_is_that_of_the_law_with_hold_and_delay(outcome:
 def test_a_deep_wall_makes_inverse_mapping_worse() -> None:
     settings = resolve(
         EXPERIMENT,
-        {"spacing_deg": 30.0, "depth_m": 0.01, "motion": False, "limits.tip_force_n": 200.0,
+        {"spacing_deg": 90.0, "depth_m": 0.01, "motion": False, "limits.tip_force_n": 200.0,
          "drive.current_max_a": [200.0] * 3, "drive.current_continuous_a": [100.0] * 3,
          "drive.voltage_max_v": [1000.0] * 3, "twin.winding.supply_v": 1000.0,
          "limits.tip_slew_n_per_s": 1e6, "twin.hand.clamp_stiffness_n_per_m": 1e6},
@@ -60,7 +60,7 @@ def test_a_deep_wall_makes_inverse_mapping_worse() -> None:
 
 def test_links_at_right_angles_need_no_transpose() -> None:
     settings = resolve(
-        EXPERIMENT, {"pose_rad": [0.0, 0.5, 0.5], "spacing_deg": 45.0, "motion": False, "depth_m": 3e-4}
+        EXPERIMENT, {"pose_rad": [0.0, 0.5, 0.5], "spacing_deg": 90.0, "motion": False, "depth_m": 3e-4}
     )
     outcome = EXPERIMENT.run(Run(EXPERIMENT, settings))
     assert outcome.results["inverse"]["max_abs_error_deg"] < 0.5
@@ -91,7 +91,7 @@ async def test_a_device_with_a_locked_tip_shows_the_same_by_its_motors() -> None
     outcome = await EXPERIMENT.run_on(run, bench)
     assert outcome.results["force_from"] == ESTIMATED
     expected = [HALF_TURN_DEG[i] for i in (0, 4, 8)] * 2
-    np.testing.assert_allclose(outcome.results["inverse"]["error_deg"], expected, atol=0.7)
+    np.testing.assert_allclose(outcome.results["inverse"]["error_deg"], expected, atol=1.0)
     assert outcome.results["transpose"]["max_abs_error_deg"] < 0.5
     assert bench.scenes[-1]["walls"] == []
 
