@@ -18,6 +18,7 @@ pub mod environment;
 pub mod estimate;
 pub mod facing;
 pub mod fault;
+pub mod friction;
 pub mod gain;
 pub mod guard;
 pub mod hold;
