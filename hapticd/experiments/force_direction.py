@@ -66,7 +66,7 @@ class ForceDirection:
         Parameter("spacing_deg", 15.0, "°", "Angle from one wall normal to the next", "WN §VI", 1.0, 120.0),
         Parameter(
             "settle_s",
-            0.06,
+            0.1,
             "s",
             "From the wall to the measurement",
             "chosen, 50 time constants L/dR",

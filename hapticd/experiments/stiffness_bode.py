@@ -27,7 +27,7 @@ class StiffnessBode:
     source = "WN Fig. 2, eq. 4–17"
     models = (MODEL,)
     overrides: Mapping[str, Any] = CLEAN
-    uncertain = ("estimator.lambda_rad_per_s", "drive.l_h", "drive.k_t_nm_per_a", "drive.r_25_ohm")
+    uncertain = ("estimator.lambda_rad_per_s", "drive.l_h", "drive.k_t_nm_per_a")
     on_device = False
     parameters = (
         RESIDUAL,
