@@ -22,7 +22,7 @@ PAGE = "reproduction.md"
 IMAGES = Path("images") / "reproduction"
 MARKS = {"holds": "✓ holds", "fails": "✗ fails", "undecidable": "? undecidable"}
 
-OF_DRAWS: Mapping[str, Mapping[str, Any]] = {}
+OF_DRAWS: Mapping[str, Mapping[str, Any]] = {"stability-map": {"columns": 13, "rows": 12}}
 """What is set in the draws of experiments that take minutes."""
 
 INTRODUCTION = """# The papers on the twins
