@@ -125,16 +125,16 @@ def _tuning(loop: DeviceLoop) -> Iterator[Advice]:
         limit_then=k_hf,
         words="Raise K_P: the drive is passive up to K_DC = K_HF; mind the limits of sampling.",
     )
-    coarser = replace(loop, coupling=replace(loop.coupling, lag_s=loop.coupling.lag_s / 2))
+    closer = replace(loop, coupling=replace(loop.coupling, lag_s=2 * loop.coupling.lag_s))
     yield Advice(
-        parameter="dR",
+        parameter="drive.r_hat_ohm",
         present=1.0 / loop.coupling.lag_s,
-        proposed=2.0 / loop.coupling.lag_s,
+        proposed=0.5 / loop.coupling.lag_s,
         unit="rad/s of dR/L",
-        limit="sampling",
-        limit_now=loop.sampled.largest_stiffness_n_per_m(0.0),
-        limit_then=coarser.sampled.largest_stiffness_n_per_m(0.0),
-        words="Cancel less resistance (lower R̂/R), with K_P raised alike: the drive then answers faster.",
+        limit="linear",
+        limit_now=loop.linear.largest_stiffness_n_per_m(0.0),
+        limit_then=closer.linear.largest_stiffness_n_per_m(0.0),
+        words="Cancel more of the resistance (raise R̂/R), lower K_P alike; a cold winding must stay above R̂.",
     )
 
 
