@@ -46,7 +46,11 @@ impl Contact {
 pub fn contact(facings: &[Facing], x: &V3, proxy: &V3) -> Contact {
     let mut found = Contact::free(proxy);
     let mut depths_m = [0.0; MAX_NAMED];
-    for of_wall in facings.chunk_by(|a, b| a.wall == b.wall) {
+    let mut rest = facings;
+    while let Some(first) = rest.first() {
+        let same = rest.iter().take_while(|facing| facing.wall == first.wall);
+        let (of_wall, others) = rest.split_at(same.count());
+        rest = others;
         if let Some((depth_m, facing)) = deepest(of_wall, x) {
             found.count += 1;
             rank(&mut found.touched, &mut depths_m, facing.wall, depth_m);

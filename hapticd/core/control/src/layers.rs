@@ -4,6 +4,7 @@ use crate::facing::Facings;
 use crate::linear::V3;
 use crate::proxy::Proxy;
 use crate::scene::Scene;
+use crate::supports::Supports;
 
 /// Scenes that fade at the same time at most.
 pub const MAX_LAYERS: usize = 4;
@@ -37,6 +38,8 @@ pub struct Layers {
     scenes: [Scene; MAX_LAYERS],
     /// One per scene.
     proxies: [Proxy; MAX_LAYERS],
+    /// Room for their work.
+    around: Supports,
     stack: [Layer; MAX_LAYERS],
     count: usize,
 }
@@ -59,6 +62,7 @@ impl Layers {
         Self {
             scenes: [Scene::default(); MAX_LAYERS],
             proxies: core::array::from_fn(|_| Proxy::default()),
+            around: Supports::default(),
             stack: [bottom; MAX_LAYERS],
             count: 1,
         }
@@ -72,7 +76,11 @@ impl Layers {
             self.drop_lightest();
         }
         let slot = self.free_slot();
+        let top = self.stack[self.count - 1].slot;
+        let history = self.proxies[top].history();
+        let history = history.carried(self.scenes[top].walls(), scene.walls());
         self.scenes[slot] = *scene;
+        self.proxies[slot].adopt(scene.walls(), history);
         let fades = scene.fade_s > 0.0;
         self.stack[self.count] = Layer {
             slot,
@@ -95,6 +103,11 @@ impl Layers {
         self.count > 1
     }
 
+    /// Lets the proxies start anew at the tip: it may have been taken through walls unseen.
+    pub fn reset(&mut self) {
+        self.proxies.iter_mut().for_each(Proxy::reset);
+    }
+
     /// Lets `dt_s` pass.
     pub fn advance(&mut self, dt_s: f64) {
         for layer in &mut self.stack[..self.count] {
@@ -108,7 +121,7 @@ impl Layers {
     pub fn follow(&mut self, x: &V3, soften: impl Fn(&Scene, &mut Facings)) {
         for layer in &self.stack[..self.count] {
             let (scene, proxy) = (&self.scenes[layer.slot], &mut self.proxies[layer.slot]);
-            proxy.follow(scene.walls(), x);
+            proxy.follow(scene.walls(), x, &mut self.around);
             soften(scene, proxy.facings_mut());
         }
     }

@@ -9,4 +9,6 @@ mod layers;
 mod linear;
 mod mapping;
 mod models;
+mod proxy;
+mod solids;
 mod walls;
