@@ -15,6 +15,8 @@ from hapticd.experiments.report import document, text
 from hapticd.experiments.run import Run
 from hapticd.experiments.settings import Settings
 from hapticd.experiments.trace_file import write_traces
+from hapticd.problem import Problem
+from hapticd.twin import Refused
 
 
 @dataclass(frozen=True)
@@ -43,9 +45,17 @@ class Finished:
 
 def carry_out(order: Order, progress: Progress | None = None) -> Finished:
     """Runs an experiment on its twins. ``Problem``; ``Cancelled``."""
-    progress = progress or Progress()
     if order.out is not None:
         require_libraries()
+    try:
+        return _carry_out(order, progress or Progress())
+    except Refused as error:
+        detail = f"The twin of {order.experiment.name} did not go along: {error}."
+        hint = "Set back what was changed last: in this state the device cannot be enabled."
+        raise Problem("experiment-failed", detail, hint=hint) from error
+
+
+def _carry_out(order: Order, progress: Progress) -> Finished:
     # Each draw costs what the run itself costs.
     own = 1.0 / (1.0 + order.jitter)
     run = Run(

@@ -14,6 +14,7 @@ from hapticd.experiments.parallel import parallel_map
 from hapticd.experiments.progress import Progress
 from hapticd.experiments.settings import Settings, layered
 from hapticd.model import Model, load_model
+from hapticd.problem import Problem
 from hapticd.twin import TwinRun
 
 Item = TypeVar("Item")
@@ -90,8 +91,17 @@ class Run:
         return layered(self.experiment, self.settings, model)
 
     def model(self, model: str, overrides: Mapping[str, Any] | None = None) -> Model:
-        """A device model as this run has it. ``overrides`` go above the experiment's, below the user's."""
-        return load_model(model, self._between(model, overrides or {}))
+        """A device model as this run has it. ``overrides`` go above the experiment's, below the user's.
+
+        ``Problem`` (parameter-invalid) where they do not go together.
+        """
+        between = {**self.overrides(model), **(overrides or {}), **self.settings.overrides.get(model, {})}
+        try:
+            return load_model(model, between)
+        except ValueError as error:
+            detail = f"{self.experiment.name} cannot be run with these settings: {error}"
+            hint = f"hapticd experiment show {self.experiment.name} gives each key's unit, default and range."
+            raise Problem("parameter-invalid", detail, hint=hint) from error
 
     def twin(
         self,
@@ -103,10 +113,7 @@ class Run:
     ) -> TwinRun:
         """A twin as this run has it, seeded by the run unless ``seed`` says otherwise."""
         return TwinRun(
-            model,
-            rate_hz=rate_hz,
-            seed=self.seed if seed is None else seed,
-            overrides=self._between(model, overrides or {}),
+            self.model(model, overrides), rate_hz=rate_hz, seed=self.seed if seed is None else seed
         )
 
     def rng(self, purpose: str = "") -> np.random.Generator:
@@ -135,6 +142,3 @@ class Run:
             self._progress.tell(begin + (until - begin) * done / total, f"{doing}, {done} of {total}")
 
         return parallel_map(function, items, each)
-
-    def _between(self, model: str, overrides: Mapping[str, Any]) -> dict[str, Any]:
-        return {**self.overrides(model), **overrides, **self.settings.overrides.get(model, {})}

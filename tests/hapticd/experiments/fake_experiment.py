@@ -39,7 +39,9 @@ class FakeExperiment:
     parameters: tuple[Parameter, ...] = (
         Parameter("speed_m_per_s", 0.25, "m/s", "Speed", "assumed", minimum=0.0, maximum=2.0, uncertain=True),
         Parameter("runs", 2, "1", "How many runs", "assumed", minimum=1, maximum=10),
-        Parameter("how", "well", "", "How it goes", "assumed", choices=("well", "badly", "crash", "long")),
+        Parameter(
+            "how", "well", "", "How it goes", "assumed", choices=("well", "badly", "crash", "long", "refused")
+        ),
         Parameter("noisy", True, "", "Whether the seed matters", "assumed"),
         Parameter("axis", (1.0, 0.0), "1", "A direction", "assumed", minimum=-1.0, maximum=1.0),
     )
@@ -51,6 +53,10 @@ class FakeExperiment:
             raise Problem("parameter-invalid", "It goes badly.", hint="Let it go well.")
         if how == "crash":
             raise RuntimeError("the ground is gone")
+        if how == "refused":
+            twin = run.twin("hhd")
+            twin.estop()
+            twin.enable()
         while how == "long":
             run.progress(0.5, "waiting")
             time.sleep(0.01)

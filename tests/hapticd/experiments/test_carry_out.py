@@ -91,6 +91,12 @@ def test_a_missing_library_is_told_with_its_cure_before_anything_runs(
     assert "pip install 'hapticd[experiments]'" in caught.value.hint
 
 
+def test_a_twin_that_does_not_go_along_is_a_problem_that_names_the_interlock() -> None:
+    with pytest.raises(Problem, match="estop-latched") as caught:
+        finished(how="refused")
+    assert caught.value.slug == "experiment-failed"
+
+
 def test_draws_keep_to_ten_percent_and_to_the_range() -> None:
     settings = resolve(EXPERIMENT, {"speed_m_per_s": 1.95})
     draws = [drawn(EXPERIMENT, settings, 1, draw) for draw in range(100)]

@@ -60,7 +60,7 @@ def test_a_value_that_does_not_fit_names_field_range_and_cure(value: Any, words:
 
 
 def test_a_word_outside_the_choices_lists_them() -> None:
-    assert refusal(how="perhaps").allowed == ["well", "badly", "crash", "long"]
+    assert refusal(how="perhaps").allowed == ["well", "badly", "crash", "long", "refused"]
 
 
 def test_a_fraction_is_no_count() -> None:
@@ -102,6 +102,11 @@ def test_what_the_model_itself_refuses_is_told_before_anything_runs() -> None:
     problem = refusal(**{"twin.motor.lag_scale": -3.0})
     assert problem.slug == "parameter-invalid"
     assert "twin.motor.lag_scale" in problem.detail
+
+
+def test_what_does_not_go_together_with_the_experiments_own_values_is_a_problem() -> None:
+    with pytest.raises(Problem, match=r"twin\.motor\.lag_scale"):
+        set_to().twin("hhd", overrides={"twin.motor.lag_scale": -1.0})
 
 
 def test_an_assignment_without_a_value_shows_how_to_write_one() -> None:
