@@ -331,6 +331,26 @@ _Rows: TypeAlias = Sequence[Sequence[float]] | NDArray[np.float64]
 _WallRow: TypeAlias = tuple[_Axes, float, float]
 """Unit normal, offset in m, η."""
 
+class Friction:
+    """Friction of a device on the walls it touches, with its memory. ValueError: not a model.
+
+    ``walls`` are rows of key, normal, rendered normal force, μ_s, μ_k, ``motor`` or ``brake``.
+    """
+
+    def __init__(self, device_json: str, period_s: float) -> None: ...
+    def force(
+        self,
+        walls: Sequence[tuple[int, _Axes, float, float, float, str]],
+        *,
+        q: _Axes,
+        x: _Axes,
+        xd: _Axes,
+        hand_force_n: _Axes | None = None,
+    ) -> tuple[list[float], list[float], int]:
+        """Force for the motors and for the brakes, N; 0 no friction, 1 sticks, 2 slips."""
+    def energy_j(self) -> float:
+        """Energy in the springs of the anchors, J."""
+
 class Kinematics:
     """Geometry of one device model. ValueError: not a model."""
 

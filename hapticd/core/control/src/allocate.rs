@@ -61,24 +61,49 @@ pub fn usable(model: &BrakeModel, before: bool, torque_nm: f64, qd: f64, hand_nm
 /// while the hand no longer pushes against it (physics §5, after KS Fig. 5).
 #[must_use]
 pub fn releasing(model: &BrakeModel, load: &Load) -> bool {
-    gives_in(model, load, &load.torque_nm, &load.force_n)
-}
-
-/// Whether brakes that hold have to let go together, likewise.
-#[must_use]
-pub fn letting_go(model: &BrakeModel, load: &Load) -> bool {
-    let force_n = load.force_per_torque * load.hold_nm;
-    gives_in(model, load, &load.hold_nm, &force_n)
-}
-
-fn gives_in(model: &BrakeModel, load: &Load, torque_nm: &V3, force_n: &V3) -> bool {
     if load.qd.amax() > model.omega_on_rad_per_s {
-        torque_nm.dot(&load.qd) > 0.0
+        load.torque_nm.dot(&load.qd) > 0.0
     } else if load.qd.amax() < model.omega_off_rad_per_s {
-        force_n.dot(&load.hand_force_n) >= 0.0
+        load.force_n.dot(&load.hand_force_n) >= 0.0
     } else {
         false
     }
+}
+
+/// Whether brakes that hold have to let go together: the joints give in to them. At rest whoever
+/// asked for the hold has seen to that.
+#[must_use]
+pub fn letting_go(model: &BrakeModel, load: &Load) -> bool {
+    load.qd.amax() > model.omega_on_rad_per_s && load.hold_nm.dot(&load.qd) > 0.0
+}
+
+/// Whether a brake may hold with `hold_nm`: when moving, if that dissipates; at rest, unless the
+/// hand and all that acts on the joint beside the brake, `other_nm`, push the same way: what it
+/// would hold is then not what it is to hold. Where nothing acts it is charged for what comes.
+#[must_use]
+pub fn may_hold(model: &BrakeModel, before: bool, hold: &Holding) -> bool {
+    let least_nm = model.hand_torque_min_nm;
+    if hold.hold_nm == 0.0 {
+        false
+    } else if hold.qd.abs() < model.omega_off_rad_per_s {
+        let against = hold.hold_nm.signum();
+        against * hold.hand_nm < -least_nm || against * hold.other_nm <= least_nm
+    } else {
+        usable(model, before, hold.hold_nm, hold.qd, hold.hand_nm)
+    }
+}
+
+/// A brake that is to hold one joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Holding {
+    /// Torque it is to hold with, N·m.
+    pub hold_nm: f64,
+    /// q̇, rad/s.
+    pub qd: f64,
+    /// Torque of the hand, N·m.
+    pub hand_nm: f64,
+    /// Torque of hand and motors, N·m.
+    pub other_nm: f64,
 }
 
 /// Torque of the brake on `joint` when it is the only one: F_d projected on the force it gives,
@@ -143,18 +168,17 @@ impl Allocator {
         let shares = !motors && !releasing(&self.model, load);
         let holds = !motors && !letting_go(&self.model, load);
         let model = self.model;
-        let may = |before: bool, torque_nm: &V3, i: usize| {
-            usable(
-                &model,
-                before,
-                torque_nm[i],
-                load.qd[i],
-                load.hand_torque_nm[i],
-            )
-        };
         for i in 0..3 {
-            self.usable[i] = shares && may(self.usable[i], &load.torque_nm, i);
-            self.holding[i] = holds && may(self.holding[i], &load.hold_nm, i);
+            let (qd, hand_nm) = (load.qd[i], load.hand_torque_nm[i]);
+            let share = usable(&model, self.usable[i], load.torque_nm[i], qd, hand_nm);
+            let holding = Holding {
+                hold_nm: load.hold_nm[i],
+                qd,
+                hand_nm,
+                other_nm: hand_nm + load.motor_only_nm[i] + self.motor_nm[i],
+            };
+            self.usable[i] = shares && share;
+            self.holding[i] = holds && may_hold(&model, self.holding[i], &holding);
         }
     }
 

@@ -4,6 +4,7 @@ use crate::bits;
 use crate::check::{check, ModelError};
 use crate::estimate::{Estimator, JointState};
 use crate::fault::{Fault, FaultSet};
+use crate::friction::FrictionState;
 use crate::guard::Guard;
 use crate::io::{status, Command, Exchange, Observation};
 use crate::linear::V3;
@@ -191,6 +192,7 @@ impl Controller {
 
     fn flags(&self, fresh: bool) -> u64 {
         let machine = self.guard.machine();
+        let sticks = self.rendering.friction.state == FrictionState::Stick;
         bits::union(&[
             (machine.homed, flag::HOMED),
             (machine.busy, flag::BUSY),
@@ -198,6 +200,7 @@ impl Controller {
             (self.fading(), flag::FADING),
             (fresh, flag::FRESH),
             (self.rendering.contact.count > 0, flag::CONTACT),
+            (sticks, flag::STICK),
         ])
     }
 

@@ -24,7 +24,7 @@ use load::{shared_normal_n, HandFilter};
 pub const MAX_RUBBING: usize = 16;
 
 /// A wall that the tip touches.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Rubbing {
     /// The wall's number, by which it is known again.
     pub key: u64,

@@ -2,6 +2,7 @@
 
 use crate::bits;
 use crate::estimate::JointState;
+use crate::friction::FrictionForce;
 use crate::io::{status, Observation};
 use crate::linear::V3;
 use crate::record::{limit, TickRecord, NO_WALL};
@@ -43,6 +44,12 @@ pub fn motion(record: &mut TickRecord, pose: &JointState, rendering: &Rendering)
     record.shared_torque_nm = rendering.demand.shared_nm().into();
     record.hold_torque_nm = rendering.demand.hold_nm.into();
     record.tip_force_demand_n = rendering.demand.force_n.into();
+    friction(record, &rendering.friction);
+}
+
+fn friction(record: &mut TickRecord, friction: &FrictionForce) {
+    record.friction_force_n = (friction.motor_n + friction.brake_n).into();
+    record.friction_state = friction.state as u64;
 }
 
 fn named(wall: usize) -> u64 {

@@ -2,6 +2,7 @@
 //! hold, friction, passivity.
 
 pub mod blend;
+mod rub;
 mod spring_drive;
 mod torque_drive;
 pub mod touch;
@@ -13,6 +14,7 @@ use crate::contact::{contact, Contact};
 use crate::couple::{dc_stiffness, JointDemand};
 use crate::environment::SetPoint;
 use crate::estimate::JointState;
+use crate::friction::FrictionForce;
 use crate::hold::Hold;
 use crate::law::Tip;
 use crate::layers::Layers;
@@ -21,6 +23,7 @@ use crate::mapping::workspace_stiffness;
 use crate::model::{DeviceModel, DriveModel, KinematicsModel};
 use crate::scene::Scene;
 use crate::thermal::tuned_residual_ohm;
+use rub::Rub;
 use spring_drive::Spring;
 use touch::Touch;
 use walls::{Demanded, Walls};
@@ -36,6 +39,8 @@ pub struct Rendering {
     pub stiffness_n_per_m: f64,
     /// What that asks of the joints.
     pub demand: JointDemand,
+    /// Friction on the walls touched, part of the demand.
+    pub friction: FrictionForce,
 }
 
 /// Renderer of one device.
@@ -48,6 +53,7 @@ pub struct Renderer {
     /// On the heap: scenes are too large to be moved about on the stack.
     walls: Box<Walls>,
     hold: Option<Hold>,
+    rub: Rub,
 }
 
 impl Renderer {
@@ -67,6 +73,7 @@ impl Renderer {
             workspace_n_per_m,
             walls: Box::new(Walls::new(Tip::new(model, period_s))),
             hold: model.brakes.map(|brakes| Hold::new(&brakes, &model.limits)),
+            rub: Rub::new(model, period_s),
         }
     }
 
@@ -107,13 +114,20 @@ impl Renderer {
             let held = self.walls.touches.as_slice();
             hold.demand(held, state, hand_force_n, &mut demanded.demand);
         }
-        // Friction joins here: from the push of every wall touched, before passivity books it.
+        let friction = self.rub.demand(
+            self.walls.touches.as_slice(),
+            self.walls.layers.top().allocation,
+            state,
+            hand_force_n,
+            &mut demanded.demand,
+        );
         // Passivity joins here: last, so that the energy of all that is asked for is watched.
         Rendering {
             contact: self.contact(state),
             set_point: demanded.set_point,
             stiffness_n_per_m: demanded.stiffness_n_per_m,
             demand: demanded.demand,
+            friction,
         }
     }
 

@@ -6,7 +6,7 @@ use crate::damping::{against_penetration, passed, Linear};
 use crate::environment::{set_point, shares, SetPoint};
 use crate::estimate::JointState;
 use crate::facing::{Facing, Facings, MAX_FACINGS};
-use crate::law::{damper_force, damping, eta, exists, is_damper, stiffness, Push, Tip};
+use crate::law::{damper_force, damping, eta, exists, stiffness, Push, Tip};
 use crate::linear::V3;
 use crate::scene::{Scene, Wall};
 
@@ -93,8 +93,8 @@ impl Answers<'_> {
             };
             if let Some(touch) = self.touch(index, facing, wall, touches) {
                 touch.parts.add(weight, &facing.normal.into(), &surface);
-                if before != Some(facing.wall) && wall.brake && is_damper(&wall.law) {
-                    touch.hold += weight;
+                if before != Some(facing.wall) {
+                    touch.weigh(weight, wall);
                 }
                 before = Some(facing.wall);
             }

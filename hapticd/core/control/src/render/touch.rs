@@ -1,6 +1,6 @@
 //! The walls that push the tip: their forces summed over the scenes in force, by the wall's key.
 
-use crate::law::Push;
+use crate::law::{is_damper, Push};
 use crate::linear::V3;
 use crate::scene::{Friction, Wall, MAX_WALLS};
 
@@ -55,7 +55,7 @@ pub struct Touch {
     pub brake: bool,
     /// Whether passivity control watches it.
     pub passivity: bool,
-    /// Friction on its surface.
+    /// Friction on its surface, faded with the scenes.
     pub friction: Friction,
     /// Share of the scenes in which brakes may hold the tip in it.
     pub hold: f64,
@@ -70,8 +70,20 @@ impl Touch {
             parts: Parts::default(),
             brake: wall.brake,
             passivity: wall.passivity,
-            friction: wall.friction,
+            friction: Friction {
+                actuator: wall.friction.actuator,
+                ..Friction::default()
+            },
             hold: 0.0,
+        }
+    }
+
+    /// Counts in a scene of the given weight, where it is `wall`.
+    pub fn weigh(&mut self, weight: f64, wall: &Wall) {
+        self.friction.static_ += weight * wall.friction.static_;
+        self.friction.kinetic += weight * wall.friction.kinetic;
+        if wall.brake && is_damper(&wall.law) {
+            self.hold += weight;
         }
     }
 
