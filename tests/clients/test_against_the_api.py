@@ -8,13 +8,27 @@ from typing import Any, TypeVar
 
 import pytest
 
-from hapticd_client import Client, Refused, open_stream, plane
+from hapticd_client import (
+    Client,
+    Refused,
+    box,
+    capsule,
+    cubic_damper,
+    damper,
+    friction,
+    motion,
+    open_stream,
+    plane,
+    sphere,
+    spring,
+)
 from hapticd_client.documents import (
     Applied,
     Device,
     EstopReport,
     Event,
     Flags,
+    Granted,
     Health,
     Interlock,
     Scene,
@@ -64,10 +78,46 @@ async def test_a_wall_is_made_read_and_taken_away(address: str) -> None:
     assert not lacking(made, WallResult)
     assert made["applied"] is not None
     assert not lacking(made["applied"], Applied)
-    assert await asked(address, lambda client: client.walls("phantom")) == [FLOOR]
+    assert not lacking(made["granted"], Granted)
+    assert [wall["shape"] for wall in await asked(address, lambda client: client.walls("phantom"))] == [
+        FLOOR["shape"]
+    ]
     gone = await asked(address, lambda client: client.delete_wall("phantom", "floor"))
     assert gone["wall"] is None
     assert await asked(address, lambda client: client.walls("phantom")) == []
+
+
+async def test_walls_that_are_built_are_understood(address: str) -> None:
+    turned = [0.5, 0.5, 0.5, 0.5]
+    walls = [
+        FLOOR,
+        sphere("ball", center_m=[0.2, 0.0, 0.0], radius_m=0.02, law=spring(800, 2, passivity=True)),
+        box("room", center_m=[0.2, 0.0, 0.0], size_m=[0.1, 0.1, 0.1], orientation=turned, hollow=True),
+        capsule("rod", from_m=[0.2, 0.0, 0.0], to_m=[0.2, 0.1, 0.0], radius_m=0.01, law=damper(5)),
+        plane("left", point_m=[0.0, 0.1, 0.0], normal=[0.0, -1.0, 0.0], law=motion(0.5, brake=None)),
+    ]
+    result = await asked(address, lambda client: client.replace_scene("phantom", {"walls": walls}))
+    assert [wall["id"] for wall in result["walls"]] == ["floor", "ball", "room", "rod", "left"]
+    tile = box(
+        "tile",
+        center_m=[0.0, 0.1],
+        size_m=[0.1, 0.02],
+        angle_rad=0.3,
+        law=cubic_damper("explicit", brake=True),
+        friction=friction(0.4, 0.3, "brake"),
+    )
+    made = await asked(address, lambda client: client.put_wall("hhd", tile, force=True))
+    assert made["granted"] is not None
+    assert made["granted"]["friction_actuator"] == "brake"
+
+
+async def test_a_changed_wall_keeps_what_the_patch_does_not_name(address: str) -> None:
+    await asked(address, lambda client: client.put_wall("phantom", FLOOR))
+    softer = await asked(
+        address, lambda client: client.change_wall("phantom", "floor", {"law": {"eta": 0.5}})
+    )
+    assert softer["wall"] is not None
+    assert softer["wall"]["shape"] == FLOOR["shape"]
 
 
 async def test_a_wall_that_must_be_new_replaces_none(address: str) -> None:

@@ -21,11 +21,22 @@ def wall_result(**members: Any) -> dict[str, Any]:
     return {
         "wall": None,
         "stiffness_n_per_m": 912.4,
+        "granted": granted(912.4),
         "etag": '"8"',
         "revision": 8,
         "applied": {"tick": 4711, "t_mono_ns": 1, "fade_s": 0.2, "clamped": []},
         "dry_run": False,
         "note": None,
+        **members,
+    }
+
+
+def granted(stiffness_n_per_m: float, **members: Any) -> dict[str, Any]:
+    return {
+        "stiffness_n_per_m": stiffness_n_per_m,
+        "stiffness_fraction": 1.0,
+        "forced": False,
+        "why": [],
         **members,
     }
 
@@ -121,6 +132,44 @@ def test_a_wall_of_a_planar_device_takes_two_numbers(run: Run, double: DaemonDou
     assert double.last_body["shape"] == {"type": "plane", "point_m": [-0.1, 0.0], "normal": [1.0, 0.0]}
 
 
+def test_any_shape_law_and_friction_can_be_spelt(run: Run, double: DaemonDouble) -> None:
+    double.answer(f"PUT {FLOOR_PATH}", wall_result())
+    run(
+        *("walls", "add", "phantom", "floor", "--friction", "static=0.4 kinetic=0.3", "--force"),
+        *("--shape", "sphere center_m=0.2,0,-0.03 radius_m=0.02 hollow=true"),
+        *("--law", "spring stiffness_n_per_m=800 passivity=true"),
+    )
+    shape = {"type": "sphere", "center_m": [0.2, 0, -0.03], "radius_m": 0.02, "hollow": True}
+    assert double.last_body["shape"] == shape
+    assert double.last_body["law"] == {"type": "spring", "stiffness_n_per_m": 800, "passivity": True}
+    assert double.last_body["friction"] == {"static": 0.4, "kinetic": 0.3}
+    assert double.requests[-1].url.params["force"] == "true"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        (),
+        ("--point", "0,0,0"),
+        ("--point", "0,0,0", "--normal", "0,0,1", "--shape", "sphere radius_m=1"),
+        ("--shape", "radius_m=1"),
+        ("--shape", "sphere radius_m"),
+    ],
+)
+def test_wall_that_is_not_one_shape_is_refused_before_anything_is_sent(
+    run: Run, double: DaemonDouble, options: tuple[str, ...]
+) -> None:
+    result = run("walls", "add", "phantom", "floor", *options)
+    assert result.exit_code == 2
+    assert not double.requests
+
+
+def test_a_grant_below_what_was_asked_for_is_told_with_its_reason(run: Run, double: DaemonDouble) -> None:
+    less = granted(1500.0, stiffness_fraction=0.5, why=["The spring drive gives at most 1500 N/m."])
+    double.answer(f"PUT {FLOOR_PATH}", wall_result(granted=less))
+    assert "1500 N/m at this pose (The spring drive gives at most 1500 N/m)" in run(*ADD_FLOOR).stdout
+
+
 def test_walls_of_all_devices_are_listed(run: Run, double: DaemonDouble) -> None:
     wall = {
         "id": "floor",
@@ -133,7 +182,9 @@ def test_walls_of_all_devices_are_listed(run: Run, double: DaemonDouble) -> None
     double.answer("GET /api/v1/devices/phantom/scene", {"walls": [wall]})
     double.answer("GET /api/v1/devices/hhd/scene", {"walls": []})
     line = run("walls", "list").stdout.splitlines()[1]
-    assert line.split() == ["phantom", "floor", "0,", "0,", "-0.02", "0,", "0,", "1", "0.25", "0.2", "off"]
+    assert " ".join(line.split()) == (
+        "phantom floor plane point 0, 0, -0.02, normal 0, 0, 1 motion eta 0.25 – 0.2 off"
+    )
     assert json.loads(run("walls", "list", "--json").stdout) == {"phantom": [wall], "hhd": []}
 
 
@@ -143,7 +194,7 @@ def test_an_empty_scene_says_how_to_fill_it(run: Run, double: DaemonDouble) -> N
 
 
 def test_removing_a_wall_deletes_it(run: Run, double: DaemonDouble) -> None:
-    double.answer(f"DELETE {FLOOR_PATH}", wall_result(stiffness_n_per_m=None))
+    double.answer(f"DELETE {FLOOR_PATH}", wall_result(wall=None, granted=None))
     assert "without floor is in force since tick 4711" in run("walls", "remove", "phantom", "floor").stdout
 
 

@@ -4,9 +4,21 @@ It depends on nothing of the daemon and talks to it over HTTP and WebSocket alon
 """
 
 from hapticd_client.client import Client, VersionedScene
-from hapticd_client.documents import Device, Scene, Wall, plane
+from hapticd_client.documents import Device, Scene
 from hapticd_client.error import HapticdError, NotHapticd, Refused, StreamClosed, Unreachable
 from hapticd_client.stream import Stream, open_stream
+from hapticd_client.walls import (
+    Wall,
+    box,
+    capsule,
+    cubic_damper,
+    damper,
+    friction,
+    motion,
+    plane,
+    sphere,
+    spring,
+)
 
 __all__ = [
     "Client",
@@ -20,6 +32,14 @@ __all__ = [
     "Unreachable",
     "VersionedScene",
     "Wall",
+    "box",
+    "capsule",
+    "cubic_damper",
+    "damper",
+    "friction",
+    "motion",
     "open_stream",
     "plane",
+    "sphere",
+    "spring",
 ]

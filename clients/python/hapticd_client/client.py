@@ -23,9 +23,9 @@ from hapticd_client.documents import (
     Scene,
     SceneResult,
     StateReport,
-    Wall,
     WallResult,
 )
+from hapticd_client.walls import Wall
 
 API = ("api", "v1")
 
@@ -44,6 +44,7 @@ class Edit:
     etag: str | None
     dry_run: bool
     create_only: bool = False
+    force: bool = False
 
     def headers(self) -> dict[str, str]:
         """The preconditions of RFC 9110."""
@@ -52,7 +53,8 @@ class Edit:
 
     def query(self) -> dict[str, str]:
         """The query parameters."""
-        return {"dry_run": "true"} if self.dry_run else {}
+        asked = {"dry_run": self.dry_run, "force": self.force}
+        return {name: "true" for name, wanted in asked.items() if wanted}
 
 
 class Client:
@@ -60,7 +62,7 @@ class Client:
 
     Every method raises `Refused` with the daemon's problem document, or `Unreachable`. An edit that is given
     an ``etag`` is refused (revision-stale) when somebody else has edited since; ``dry_run`` validates and
-    changes nothing.
+    changes nothing; ``force`` lets walls in over their stability budget, with passivity.
     """
 
     def __init__(
@@ -142,10 +144,16 @@ class Client:
         return VersionedScene(reply.document, reply.etag)
 
     def replace_scene(
-        self, device_id: str, scene: Scene, *, etag: str | None = None, dry_run: bool = False
+        self,
+        device_id: str,
+        scene: Scene,
+        *,
+        etag: str | None = None,
+        dry_run: bool = False,
+        force: bool = False,
     ) -> SceneResult:
         """Puts another scene in force, whole, at one tick."""
-        edit = Edit(etag=etag, dry_run=dry_run)
+        edit = Edit(etag=etag, dry_run=dry_run, force=force)
         result: SceneResult = self._edit("PUT", (device_id, "scene"), scene, edit)
         return result
 
@@ -161,10 +169,26 @@ class Client:
         create_only: bool = False,
         etag: str | None = None,
         dry_run: bool = False,
+        force: bool = False,
     ) -> WallResult:
         """Adds a wall, or replaces its namesake unless ``create_only``."""
-        edit = Edit(create_only=create_only, etag=etag, dry_run=dry_run)
+        edit = Edit(create_only=create_only, etag=etag, dry_run=dry_run, force=force)
         result: WallResult = self._edit("PUT", (device_id, "scene", "walls", wall["id"]), wall, edit)
+        return result
+
+    def change_wall(
+        self,
+        device_id: str,
+        wall_id: str,
+        patch: dict[str, Any],
+        *,
+        etag: str | None = None,
+        dry_run: bool = False,
+        force: bool = False,
+    ) -> WallResult:
+        """Merges a patch into a wall, as ``{"law": {"eta": 0.5}}``; a law whose type changes is replaced."""
+        edit = Edit(etag=etag, dry_run=dry_run, force=force)
+        result: WallResult = self._edit("PATCH", (device_id, "scene", "walls", wall_id), patch, edit)
         return result
 
     def delete_wall(

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any, Literal, NotRequired, TypedDict
 
+from hapticd_client.walls import Wall
+
 State = Literal["offline", "disabled", "enabled", "paused", "fault"]
 Desired = Literal["enabled", "disabled", "paused"]
 Mapping = Literal["transpose", "inverse"]
@@ -104,31 +106,6 @@ class EstopReport(TypedDict):
     applied: Applied | None
 
 
-class Plane(TypedDict):
-    """A half-space; the unit normal points into free space."""
-
-    type: Literal["plane"]
-    point_m: list[float]
-    normal: list[float]
-
-
-class MotionLaw(TypedDict):
-    """Motion law: 0 is rigid, 1 is free."""
-
-    type: Literal["motion"]
-    eta: float
-
-
-class Wall(TypedDict):
-    """One wall."""
-
-    id: str
-    shape: Plane
-    law: MotionLaw
-    enabled: NotRequired[bool]
-    fade_s: NotRequired[float]
-
-
 class Scene(TypedDict):
     """Everything a device renders."""
 
@@ -139,11 +116,29 @@ class Scene(TypedDict):
     note: NotRequired[str | None]
 
 
+class Granted(TypedDict):
+    """What a wall comes to at the present pose, and why; null is what cannot be said.
+
+    ``budget`` is the stability budget of a wall that had to be let in.
+    """
+
+    stiffness_n_per_m: float | None
+    stiffness_fraction: float | None
+    damping_n_s_per_m: float | None
+    brake: bool
+    passivity: bool
+    friction_actuator: Literal["motor", "brake"] | None
+    forced: bool
+    why: list[str]
+    budget: dict[str, Any] | None
+
+
 class GrantedWall(TypedDict):
-    """What a wall comes to at the present pose."""
+    """What one wall of a scene was granted."""
 
     id: str
     stiffness_n_per_m: float | None
+    granted: Granted
 
 
 class SceneResult(TypedDict):
@@ -159,10 +154,11 @@ class SceneResult(TypedDict):
 
 
 class WallResult(TypedDict):
-    """The outcome of an edit of one wall; ``wall`` is null once it is gone."""
+    """The outcome of an edit of one wall; ``wall`` is null once it is gone, ``granted`` while it is off."""
 
     wall: Wall | None
     stiffness_n_per_m: float | None
+    granted: Granted | None
     etag: str
     revision: int
     applied: Applied | None
@@ -180,22 +176,3 @@ class Event(TypedDict):
     device_id: str | None
     tick: int | None
     details: dict[str, Any]
-
-
-def plane(
-    wall_id: str,
-    *,
-    point_m: list[float],
-    normal: list[float],
-    eta: float = 0.0,
-    fade_s: float = 0.2,
-    enabled: bool = True,
-) -> Wall:
-    """A plane wall: solid behind ``point_m``, free where the unit ``normal`` points; eta 0 is rigid."""
-    return {
-        "id": wall_id,
-        "shape": {"type": "plane", "point_m": point_m, "normal": normal},
-        "law": {"type": "motion", "eta": eta},
-        "enabled": enabled,
-        "fade_s": fade_s,
-    }
