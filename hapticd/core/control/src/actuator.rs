@@ -139,6 +139,16 @@ impl Motors {
         self.torque_nm
     }
 
+    /// Joint torque the motors give, N·m: by the currents where they are measured, else by the
+    /// model.
+    #[must_use]
+    pub fn given_nm(&self) -> V3 {
+        match &self.drive {
+            DriveModel::Spring(drive) => torque_per_ampere(drive).component_mul(&self.current_a),
+            DriveModel::Torque(_) => self.torque_nm,
+        }
+    }
+
     /// Currents, A: measured, or by the model. Zero where the drive takes torque.
     #[must_use]
     pub fn current_a(&self) -> V3 {

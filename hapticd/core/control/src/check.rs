@@ -1,5 +1,6 @@
 //! Start-up check of a device model: what the loop relies on holds before the first tick.
 
+use crate::energy::{DELAYS, EXCHANGE_TICKS};
 use crate::io::{Axes, AXES};
 use crate::model::{
     BrakeModel, DeviceModel, DriveModel, JointModel, KinematicsModel, LimitModel, SpringDriveModel,
@@ -263,6 +264,11 @@ fn limits(model: &LimitModel, brakes: bool) -> Checked {
         model.late_ticks > 0,
         "limits.late_ticks",
         "must be at least 1",
+    )?;
+    require(
+        EXCHANGE_TICKS + model.delay_spare_ticks < DELAYS,
+        "limits.delay_spare_ticks",
+        "must be 0, 1 or 2",
     )?;
     positive("limits.ramp_s", model.ramp_s)?;
     positive("limits.fade_s", model.fade_s)?;

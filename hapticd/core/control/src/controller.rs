@@ -1,6 +1,7 @@
 //! The controller of one device: one call a tick, from observation to command.
 
 use crate::bits;
+use crate::bookkeeper::Bookkeeper;
 use crate::check::{check, ModelError};
 use crate::estimate::{Estimator, JointState};
 use crate::fault::{Fault, FaultSet};
@@ -47,6 +48,7 @@ pub struct Controller {
     renderer: Renderer,
     rendering: Rendering,
     stage: Stage,
+    bookkeeper: Bookkeeper,
 }
 
 impl Controller {
@@ -69,6 +71,7 @@ impl Controller {
             rendering: renderer.render(&pose, &stage.motors().residual_ohm(), None),
             renderer,
             stage,
+            bookkeeper: Bookkeeper::new(model, period_s),
         })
     }
 
@@ -116,6 +119,7 @@ impl Controller {
             let dr_ohm = self.stage.motors().residual_ohm();
             let hand = hand_force_n.as_ref();
             self.rendering = self.renderer.render(&self.pose, &dr_ohm, hand);
+            self.relieve();
         }
         self.send(fresh, hand_force_n);
         self.publish(input, fresh, record);
@@ -127,6 +131,7 @@ impl Controller {
         let dt_s = match reading {
             Reading::First => {
                 self.estimator.reset(&observation.counts);
+                self.bookkeeper.begin();
                 0.0
             }
             Reading::Fresh { dt_s } => dt_s,
@@ -143,9 +148,21 @@ impl Controller {
         let measured_a = measured.then(|| V3::from(observation.motor_current_a));
         self.stage
             .settle(&self.pose.qd, self.guard.live(), measured_a);
+        self.bookkeeper
+            .book(&self.stage, measured, fresh.then_some(&self.pose.q));
         if self.stage.motors().hot() {
             self.guard.raise(FaultSet::of(Fault::MotorHot));
         }
+    }
+
+    /// Lets passivity control have its say on what the walls demand.
+    fn relieve(&mut self) {
+        self.bookkeeper.relieve(
+            self.renderer.touches(),
+            &self.pose,
+            &self.stage,
+            &mut self.rendering.demand,
+        );
     }
 
     fn send(&mut self, fresh: bool, hand_force_n: Option<V3>) {
@@ -162,6 +179,9 @@ impl Controller {
         if sent.acted & limit::NON_FINITE != 0 {
             self.guard.raise(FaultSet::of(Fault::OutputNotFinite));
             self.stage.cut();
+        }
+        if fresh {
+            self.bookkeeper.note(&self.stage);
         }
     }
 
@@ -188,6 +208,7 @@ impl Controller {
         publish::motion(record, &self.pose, &self.rendering);
         publish::command(record, &self.stage, &self.pose);
         publish::actuators(record, &self.stage, &self.pose);
+        self.bookkeeper.publish(self.renderer.touches(), record);
     }
 
     fn flags(&self, fresh: bool) -> u64 {
@@ -201,6 +222,7 @@ impl Controller {
             (fresh, flag::FRESH),
             (self.rendering.contact.count > 0, flag::CONTACT),
             (sticks, flag::STICK),
+            (self.bookkeeper.acts(), flag::PASSIVITY),
         ])
     }
 

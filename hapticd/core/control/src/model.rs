@@ -213,6 +213,8 @@ pub struct LimitModel {
     pub missing_ticks: u32,
     /// Late ticks in a row before it is a fault.
     pub late_ticks: u32,
+    /// Ticks of delay beyond the exchange's own that passivity control reckons with, 0…2.
+    pub delay_spare_ticks: usize,
     /// Time of the ramp into `enabled`, s.
     pub ramp_s: f64,
     /// Time of the fade out of it, s.

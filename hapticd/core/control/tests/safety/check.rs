@@ -248,6 +248,9 @@ fn limits_are_checked() {
                 model.limits.missing_ticks = 0
             }),
             ("limits.late_ticks", |model| model.limits.late_ticks = 0),
+            ("limits.delay_spare_ticks", |model| {
+                model.limits.delay_spare_ticks = 3
+            }),
             ("limits.ramp_s", |model| model.limits.ramp_s = 0.0),
             ("limits.fade_s", |model| model.limits.fade_s = 0.0),
             ("limits.heartbeat_s", |model| model.limits.heartbeat_s = 0.0),
