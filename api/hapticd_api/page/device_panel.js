@@ -23,7 +23,7 @@ const SILENT_AFTER_MS = 700;
 const CONTACT_FLAG = 32;
 export const POSE_SIGNALS = [
   "state", "flags", "joint_position_rad", "tip_position_m", "setpoint_position_m", "tip_force_n",
-  "contact_depth_m", "stiffness_n_per_m", "hand_position_m",
+  "contact_wall", "contact_depth_m", "stiffness_n_per_m", "hand_position_m",
 ];
 
 export class DevicePanel {
@@ -106,6 +106,7 @@ export class DevicePanel {
         force: values.tip_force_n,
         depth: values.contact_depth_m,
         stiffness: values.stiffness_n_per_m,
+        wall: values.contact_wall,
         inContact: (values.flags & CONTACT_FLAG) !== 0,
         hand: this.device.twin ? values.hand_position_m : null,
       };
@@ -162,12 +163,9 @@ export class DevicePanel {
     return `Offline. ${this.snapshot.health.why ?? "No ticks arrive."}`;
   }
 
-  // The deepest wall of those the tip is in, as the loop has it.
+  // The deepest wall the tip is in. The loop counts those that are on.
   #touched() {
-    const depth = ({ shape }) =>
-      shape.normal.reduce((sum, n, axis) => sum + n * (shape.point_m[axis] - this.pose.tip[axis]), 0);
-    const walls = this.walls.walls.filter(({ enabled }) => enabled);
-    return walls.reduce((best, wall) => (!best || depth(wall) > depth(best) ? wall : best), null)?.id ?? null;
+    return this.walls.walls.filter(({ enabled }) => enabled)[this.pose.wall]?.id ?? null;
   }
 
   #showReadings(touched) {

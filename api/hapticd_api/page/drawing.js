@@ -2,6 +2,7 @@
 
 import { chains } from "./kinematics.js";
 import { Projection } from "./projection.js";
+import { silhouette } from "./silhouette.js";
 import { norm } from "./vector.js";
 
 const GRID_M = 0.05;
@@ -70,7 +71,27 @@ export class Drawing {
     this.#text(`${across} →  ${up} ↑`, [12, height - 12], "quiet", "left");
   }
 
-  #wall({ shape, law, enabled }, tip, isTouched) {
+  #wall(wall, tip, isTouched) {
+    if (wall.shape.type === "plane") this.#plane(wall, tip, isTouched);
+    else this.#body(wall, isTouched);
+  }
+
+  #body({ shape, enabled }, isTouched) {
+    const outline = silhouette(shape, this.view.axes).map(([x, y]) => this.#at(x, y));
+    const context = this.context;
+    context.save();
+    this.#path(outline);
+    context.globalAlpha = (enabled ? 0.22 : 0.06) * (shape.hollow ? 0.3 : 1);
+    context.fillStyle = this.color(isTouched ? "touched" : "wall");
+    context.fill();
+    context.globalAlpha = enabled ? 1 : 0.35;
+    context.setLineDash(enabled ? [] : [6, 6]);
+    this.#stroke(isTouched ? "touched" : "wall", isTouched ? 3 : 2);
+    context.stroke();
+    context.restore();
+  }
+
+  #plane({ shape, law, enabled }, tip, isTouched) {
     const padded = { point_m: pad(shape.point_m), normal: pad(shape.normal) };
     const { polygon, edge } = this.projection.wall(padded, tip);
     if (polygon.length < 3) return;
@@ -78,7 +99,7 @@ export class Drawing {
     context.save();
     this.#path(polygon);
     // A wall that faces the viewer fills the view: only a tint, or nothing else could be seen.
-    const strength = edge ? 0.08 + 0.22 * (1 - law.eta) : 0.1;
+    const strength = edge ? 0.08 + 0.22 * (1 - (law.eta ?? 0)) : 0.1;
     context.globalAlpha = enabled ? strength : 0.04;
     context.fillStyle = this.color(isTouched ? "touched" : "wall");
     context.fill();

@@ -22,7 +22,8 @@ export function answerPointer(drawing, { hand, moveHand, walls, moveWall }) {
     const near = hand();
     if (near && distance(at, drawing.projection.toScreen(near)) < HAND_PX) return null;
     const tip = drawing.last?.[0]?.tip;
-    return tip ? walls().find((wall) => isNear(at, edgeOf(drawing.projection, wall, tip))) : null;
+    const planes = walls().filter(({ shape }) => shape.type === "plane");
+    return tip ? planes.find((wall) => isNear(at, edgeOf(drawing.projection, wall, tip))) : null;
   };
   const move = (event, done) => {
     const at = pixel(event);

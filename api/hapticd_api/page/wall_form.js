@@ -71,7 +71,8 @@ export class WallForm {
     form.normal.value = normal.join(", ");
     form.place_mm.value = Math.round(dot(normal, point_m) * sign(normal) * MM_PER_M * 1000) / 1000;
     form.fade_s.value = wall.fade_s;
-    form.eta.value = wall.law.eta;
+    form.eta.value = wall.law.eta ?? 0;
+    this.parts.motion.hidden = wall.law.type !== "motion";
     this.error.hidden = true;
     form.hidden = false;
     this.#showCustom();
@@ -118,7 +119,7 @@ export class WallForm {
       ...this.#wall,
       id: form.elements.id.value,
       shape: { type: "plane", point_m: times(normal, offset), normal },
-      law: { type: "motion", eta: Number(form.eta.value) },
+      law: this.#wall.law.type === "motion" ? { ...this.#wall.law, eta: Number(form.eta.value) } : this.#wall.law,
       fade_s: Number(form.fade_s.value),
     };
   }

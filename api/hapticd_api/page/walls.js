@@ -3,8 +3,8 @@
 import { get, patch, put, remove } from "./api.js";
 import { copyOf, element, partsOf } from "./dom.js";
 import { attempt } from "./toast.js";
-import { dot, written } from "./vector.js";
 import { newWall, WallForm } from "./wall_form.js";
+import { numbers, placed, remarks, softness } from "./wall_words.js";
 
 const EMPTY = "No walls yet. Add one, enable the device, and drag the hand into it.";
 
@@ -41,8 +41,9 @@ export class Walls {
       const row = this.#rows.get(wall.id);
       if (!row) continue;
       row.classList.toggle("touched", wall.id === touched);
+      if (wall.law.type !== "motion") continue;
       const eta = Number(row.querySelector("input").value);
-      row.querySelector("output").textContent = described(eta, rigid);
+      row.querySelector("output").textContent = softness(eta, rigid);
     }
   }
 
@@ -77,34 +78,33 @@ export class Walls {
     const parts = partsOf(row);
     const change = (part) => attempt(() => patch(this.#address(wall), part));
     row.querySelector("strong").textContent = wall.id;
-    row.querySelector(".what .quiet").textContent = placed(wall.shape);
+    row.querySelector(".what .quiet").textContent = [placed(wall.shape), remarks(wall)].filter(Boolean).join(" · ");
     row.classList.toggle("off", !wall.enabled);
-    const slider = row.querySelector("input");
-    slider.value = wall.law.eta;
-    slider.addEventListener("input", () => this.update(null));
-    slider.addEventListener("change", () => change({ law: { eta: Number(slider.value) } }));
+    if (wall.law.type === "motion") this.#slider(row, wall, change);
+    else parts.law.replaceChildren(...numbers(wall.law).map((number) => numberField(number, change)));
     parts.toggle.textContent = wall.enabled ? "On" : "Off";
     parts.toggle.setAttribute("aria-pressed", String(wall.enabled));
     parts.toggle.addEventListener("click", () => change({ enabled: !wall.enabled }));
+    parts.edit.hidden = wall.shape.type !== "plane"; // the form places planes
     parts.edit.addEventListener("click", () => this.form.open(wall, true));
     parts.delete.addEventListener("click", () => attempt(() => remove(this.#address(wall))));
     this.#rows.set(wall.id, row);
     return row;
   }
-}
 
-function described(eta, rigid) {
-  if (eta === 1) return "free";
-  const name = eta === 0 ? "rigid" : `η ${eta.toFixed(2)}`;
-  return rigid ? `${name} · ${(((1 - eta) * rigid) / 1000).toFixed(2)} N/mm` : name;
-}
-
-function placed({ point_m, normal }) {
-  const offset_mm = dot(normal, point_m) * 1000;
-  const axis = normal.findIndex((value) => Math.abs(Math.abs(value) - 1) < 1e-6);
-  if (axis >= 0) {
-    const side = normal[axis] > 0 ? ">" : "<";
-    return `free where ${"xyz"[axis]} ${side} ${written(normal[axis] * offset_mm, 1)} mm`;
+  #slider(row, wall, change) {
+    const slider = row.querySelector("input");
+    slider.value = wall.law.eta;
+    slider.addEventListener("input", () => this.update(null));
+    slider.addEventListener("change", () => change({ law: { eta: Number(slider.value) } }));
   }
-  return `facing (${normal.map((value) => written(value, 2)).join(", ")}), ${written(offset_mm, 1)} mm`;
+}
+
+function numberField({ field, label, value }, change) {
+  const shown = element("label", label, "softness");
+  const input = element("input");
+  Object.assign(input, { type: "number", min: 0, step: "any", placeholder: "as the form has it", value: value ?? "" });
+  input.addEventListener("change", () => change({ law: { [field]: input.value === "" ? null : Number(input.value) } }));
+  shown.append(input);
+  return shown;
 }

@@ -7,7 +7,9 @@ import { chains, views } from "../../../api/hapticd_api/page/kinematics.js";
 import { clipped, Projection } from "../../../api/hapticd_api/page/projection.js";
 import { History, roundStep, Scope } from "../../../api/hapticd_api/page/scope.js";
 import { charts } from "../../../api/hapticd_api/page/traces.js";
+import { hull, silhouette } from "../../../api/hapticd_api/page/silhouette.js";
 import { newWall } from "../../../api/hapticd_api/page/wall_form.js";
+import { numbers, placed, remarks } from "../../../api/hapticd_api/page/wall_words.js";
 
 const PHANTOM = { type: "phantom", l1_m: 0.14, l2_m: 0.14 };
 const HHD = { type: "rhombus", l_m: 0.2 };
@@ -142,4 +144,44 @@ test("time without samples leaves a gap instead of a line", () => {
   const seen = [];
   scope.history.since(0, (_, at) => seen.push(scope.history.traces[0][at]));
   assert.deepEqual(seen, [5, 6, NaN, 7]);
+});
+
+const extent = (polygon) => [0, 1].map((axis) => {
+  const values = polygon.map((point) => point[axis]);
+  return Math.max(...values) - Math.min(...values);
+});
+
+test("every shape is drawn as large as it is, in every view", () => {
+  const ball = { type: "sphere", center_m: [0.2, 0, 0.01], radius_m: 0.02 };
+  near(extent(silhouette(ball, [0, 2])), [0.04, 0.04]);
+  const rod = { type: "capsule", from_m: [0, 0, 0], to_m: [0.1, 0, 0], radius_m: 0.01 };
+  near(extent(silhouette(rod, [0, 1])), [0.12, 0.02]);
+  const block = { type: "box", center_m: [0, 0, 0], size_m: [0.1, 0.06, 0.02] };
+  near(extent(silhouette(block, [0, 2])), [0.1, 0.02]);
+  const half = Math.SQRT1_2;
+  near(extent(silhouette({ ...block, orientation: [half, 0, 0, half] }, [0, 1])), [0.06, 0.1]);
+});
+
+test("a turned rectangle of a planar device is drawn turned", () => {
+  const tile = { type: "box", center_m: [0, 0.2], size_m: [0.1, 0.04], angle_rad: Math.PI / 2 };
+  near(extent(silhouette(tile, [0, 1])), [0.04, 0.1]);
+});
+
+test("the hull keeps the corners and drops what is inside", () => {
+  const square = [[0, 0], [1, 0], [1, 1], [0, 1]];
+  assert.deepEqual(hull([...square, [0.5, 0.5], [0.2, 0.7]]).sort(), [...square].sort());
+});
+
+test("a wall is told by its shape, law, friction and switches", () => {
+  assert.equal(placed({ type: "plane", point_m: [0, 0, -0.02], normal: [0, 0, 1] }), "free where z > −20.0 mm");
+  assert.equal(
+    placed({ type: "sphere", center_m: [0.2, 0, 0], radius_m: 0.02, hollow: true }),
+    "hollow sphere of 20.0 mm about (200.0, 0.0, 0.0) mm",
+  );
+  const law = { type: "spring", stiffness_n_per_m: 800, damping_n_s_per_m: 2, passivity: true, brake: null };
+  assert.equal(remarks({ law, friction: { static: 0.4, kinetic: 0.3 } }), "spring · passivity · friction 0.4 / 0.3");
+  assert.deepEqual(numbers(law), [
+    { field: "stiffness_n_per_m", label: "stiffness, N/m", value: 800 },
+    { field: "damping_n_s_per_m", label: "damping, N·s/m", value: 2 },
+  ]);
 });
