@@ -28,8 +28,11 @@ def claims_table(report: Mapping[str, Any]) -> Table:
 
 
 def share(tally: Mapping[str, Any] | None) -> str:
-    """How often a claim held, in words; a dash where nothing was drawn."""
-    return "–" if tally is None else f"{tally['holds']} of {tally['draws']}"
+    """How often a claim held, in words; a dash where nothing was drawn or could be decided."""
+    if tally is None or tally["undecidable"] == tally["draws"]:
+        return "–"
+    undecided = f", {tally['undecidable']} undecidable" if tally["undecidable"] else ""
+    return f"{tally['holds']} of {tally['draws']}{undecided}"
 
 
 def _cells(claim: Mapping[str, Any]) -> list[str]:

@@ -68,7 +68,7 @@ def jitter(
     progress = progress or Progress()
 
     def claims_of(draw: int) -> Sequence[Claim]:
-        run = Run(experiment, drawn(experiment, settings, seed, draw), seed, progress=progress.part(0.0, 0.0))
+        run = Run(experiment, drawn(experiment, settings, seed, draw), seed, progress=progress.silent())
         return experiment.run(run).claims
 
     def each(done: int, total: int) -> None:

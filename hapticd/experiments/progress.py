@@ -31,6 +31,10 @@ class Progress:
             if self._report is not None:
                 self._report(self.fraction, doing)
 
+    def silent(self) -> Progress:
+        """A progress that tells nobody, and is cancelled with this one."""
+        return Progress(None, self._cancelled)
+
     def part(self, begin: float, end: float) -> Progress:
         """The progress of a part that takes this one from ``begin`` to ``end``."""
         return Progress(

@@ -39,6 +39,8 @@ CONTRACT = {
     "/api/v1/devices/{device_id}/twin/faults": "post",
     "/api/v1/system/realtime": "get",
     "/api/v1/events": "get",
+    "/api/v1/experiments": "get post",
+    "/api/v1/jobs/{job_id}": "get delete",
 }
 
 
