@@ -90,10 +90,8 @@ def device_loop(
 @lru_cache(maxsize=256)
 def _facts(model: Model, q: tuple[float, ...] | None) -> tuple[Tip, Coupling, float, float]:
     device: dict[str, Any] = json.loads(model.device_json)
-    lambda_rad_per_s, force_max_n = (
-        device["estimator"]["lambda_rad_per_s"],
-        device["limits"]["tip_force_n"],
-    )
+    lambda_rad_per_s = device["estimator"]["lambda_rad_per_s"]
+    force_max_n = device["limits"]["tip_force_n"]
     if device["drive"]["type"] == "torque":
         tip = worst_tip(model) if q is None else tip_at(model, q)
         return tip, _virtual_coupling(device["drive"]), lambda_rad_per_s, force_max_n

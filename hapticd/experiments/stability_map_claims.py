@@ -57,9 +57,9 @@ def _dry_friction(found: Lines, slippery: Survey) -> Claim:
     return judged(
         "Dry friction holds an undamped wall: it settles where 4 f_c A exceeds what delay gives",
         "physics §6, §9 (d)",
-        "with a tenth of the dry friction the largest stiffness that settles falls by more than half",
+        "with a tenth of the dry friction the largest stiffness that settles falls by more than a third",
         f"{usual:.3g} N/m, with a tenth {less:.3g} N/m",
-        holds=less < 0.5 * usual,
+        holds=less < 2 / 3 * usual,
     )
 
 

@@ -32,7 +32,7 @@ def test_a_soft_wall_that_still_gives_way_counts_as_settled() -> None:
 
 
 def test_a_device_that_cannot_be_enabled_does_not_settle() -> None:
-    outside = HHD.changed({"joints.home_rad": [1.3, 1.95, 0.0], "limits.singularity_margin": 0.99})
+    outside = HHD.changed({"joints.max_rad": [0.2, 3.84, 0.0]})
     assert push(outside, RATE_HZ).faulty
 
 
