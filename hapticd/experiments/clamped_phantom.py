@@ -21,8 +21,11 @@ IDEAL: Mapping[str, Any] = {
 part of the force."""
 
 
+ENABLE_S = 0.4
+"""Time in which the outputs ramp up."""
+
 CLAMP_S = 1.0
-"""Time in which the clamp takes the tip to a point, and the outputs ramp up."""
+"""Time in which the clamp takes the tip to a point."""
 
 
 class ClampedPhantom:
@@ -32,12 +35,12 @@ class ClampedPhantom:
         self.twin = run.twin(MODEL, overrides={**overrides, "joints.home_rad": pose_rad.tolist()})
         self.home: Vector = self.twin.truth()["tip_position_m"]
         self.twin.enable()
-        self.move(np.zeros(3))
+        self._hold(self.home)
+        self.twin.run(ENABLE_S)
 
     def move(self, displacement: Vector) -> None:
         """Has the clamp take the tip to ``displacement``, m, from where it started, and settle there."""
-        target = self.home + displacement
-        self.twin.hand({"type": "clamp", "position_m": target.tolist()})
+        self._hold(self.home + displacement)
         self.twin.run(CLAMP_S)
 
     def measure(self, scene: Mapping[str, Any], settle_s: float, duration_s: float) -> tuple[Vector, Vector]:
@@ -50,3 +53,6 @@ class ClampedPhantom:
         self.twin.run(settle_s)
         records = self.twin.run(duration_s)
         return records["tip_position_m"].mean(axis=0), tare - records["hand_force_n"].mean(axis=0)
+
+    def _hold(self, point: Vector) -> None:
+        self.twin.hand({"type": "clamp", "position_m": point.tolist()})

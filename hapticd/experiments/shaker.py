@@ -34,7 +34,7 @@ CLEAN: Mapping[str, Any] = {
 }
 """Encoders that resolve a nanometre, and no ripple: at high frequencies the tip moves less than a count."""
 
-STEP_S = 1e-5
+STEP_S = 2e-5
 STEP_PERIODS = 0.005
 """Longest step of the plant, in seconds and in periods: its torque answers a step late, 2° at most."""
 
