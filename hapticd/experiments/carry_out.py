@@ -9,7 +9,7 @@ from typing import Any
 from hapticd.experiments.experiment import Experiment, Outcome
 from hapticd.experiments.figure_file import write_figure
 from hapticd.experiments.jitter import Tally, jitter
-from hapticd.experiments.library import require
+from hapticd.experiments.library import check_library
 from hapticd.experiments.progress import Progress
 from hapticd.experiments.report import document, text
 from hapticd.experiments.run import Run
@@ -46,7 +46,7 @@ class Finished:
 def carry_out(order: Order, progress: Progress | None = None) -> Finished:
     """Runs an experiment on its twins. ``Problem``; ``Cancelled``."""
     if order.out is not None:
-        require_libraries()
+        check_libraries()
     try:
         return _carry_out(order, progress or Progress())
     except Refused as error:
@@ -95,7 +95,7 @@ def finish(
     return Finished(report, (json_file, *write_figure(outcome, stem), *write_traces(outcome, stem, facts)))
 
 
-def require_libraries() -> None:
+def check_libraries() -> None:
     """``Problem`` (library-missing) before anything is computed in vain."""
-    require("matplotlib")
-    require("pyarrow")
+    check_library("matplotlib")
+    check_library("pyarrow")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from hapticd.device import Device
 from hapticd.experiments.bench import DeviceExperiment
-from hapticd.experiments.carry_out import Finished, Order, finish, require_libraries
+from hapticd.experiments.carry_out import Finished, Order, check_libraries, finish
 from hapticd.experiments.progress import Cancelled, Progress
 from hapticd.experiments.run import Run
 from hapticd.loan import Loan
@@ -101,7 +101,7 @@ async def run_on_device(
     order: Order, experiment: DeviceExperiment, device: Device, tell: Callable[[float, str], None]
 ) -> Finished:
     """Runs the experiment on the device, and puts back what the device rendered, also when cancelled."""
-    require_libraries()
+    check_libraries()
     station = asyncio.get_running_loop()
     async with device.lent(f"the experiment {experiment.name}") as loan:
         check_enabled(device)
