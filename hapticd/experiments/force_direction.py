@@ -21,8 +21,8 @@ from hapticd.experiments.force_direction_claims import claims, claims_on_device
 from hapticd.experiments.force_direction_figure import draw
 from hapticd.experiments.model_keys import model_keys
 from hapticd.experiments.plane_wall import plane_wall
+from hapticd.experiments.pose_parameter import POSE, pose_of
 from hapticd.experiments.run import Run
-from hapticd.experiments.stiffness_ellipse import POSE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -82,7 +82,7 @@ class ForceDirection:
 
     def run(self, run: Run) -> Outcome:
         """Measures both mappings on the ideal twin and on one with ripple, friction and heat."""
-        pose = PhantomPose.of_model(run.model(MODEL, tuned(run)), np.array(run.vector("pose_rad")))
+        pose = PhantomPose.of_model(run.model(MODEL, tuned(run)), pose_of(run))
         ideal = {mapping: series(run, pose, mapping, {}) for mapping in MAPPINGS}
         imperfect = {mapping: series(run, pose, mapping, imperfections()) for mapping in MAPPINGS}
         moving = bandwidth(run, pose, np.array(FAST_HZ), RATE_HZ) if run.flag("motion") else None

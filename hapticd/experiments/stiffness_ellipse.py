@@ -14,6 +14,7 @@ from hapticd.analysis.stiffness import alpha_bound, locked_joints, principal, tr
 from hapticd.experiments.clamped_phantom import IDEAL
 from hapticd.experiments.drive_tuning import MODEL, RESIDUAL, TUNING, tuned
 from hapticd.experiments.experiment import Outcome, Parameter
+from hapticd.experiments.pose_parameter import POSE, pose_of
 from hapticd.experiments.run import Run
 from hapticd.experiments.stiffness_ellipse_claims import claims
 from hapticd.experiments.stiffness_ellipse_figure import draw
@@ -32,16 +33,6 @@ MISMATCH = (0.05, 0.1, 0.2)
 
 SPHERE = 2000
 """Directions in which the error of a stiffness matrix is looked for."""
-
-POSE = Parameter(
-    "pose_rad",
-    (0.0, 0.0, np.pi / 6),
-    "rad",
-    "Joint angles q1, q2, q3; the links are perpendicular where q3 = q2",
-    "chosen: WN Fig. 3 and 4 give no numbers",
-    minimum=-1.05,
-    maximum=1.7,
-)
 
 
 class StiffnessEllipse:
@@ -65,7 +56,7 @@ class StiffnessEllipse:
 
     def run(self, run: Run) -> Outcome:
         """Pulls the tip under both mappings, and compares with the matrices of the paper."""
-        pose_rad = np.array(run.vector("pose_rad"))
+        pose_rad = pose_of(run)
         model = run.model(MODEL, tuned(run))
         pose = PhantomPose.of_model(model, pose_rad)
         probes = {

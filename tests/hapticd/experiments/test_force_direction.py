@@ -60,7 +60,7 @@ def test_a_deep_wall_makes_inverse_mapping_worse() -> None:
 
 def test_links_at_right_angles_need_no_transpose() -> None:
     settings = resolve(
-        EXPERIMENT, {"pose_rad": [0.0, 0.5, 0.5], "spacing_deg": 90.0, "motion": False, "depth_m": 3e-4}
+        EXPERIMENT, {"pose_rad": [0.5, 0.5], "spacing_deg": 90.0, "motion": False, "depth_m": 3e-4}
     )
     outcome = EXPERIMENT.run(Run(EXPERIMENT, settings))
     assert outcome.results["inverse"]["max_abs_error_deg"] < 0.5
@@ -100,3 +100,9 @@ async def test_a_device_with_torque_drives_is_refused() -> None:
     run = Run(EXPERIMENT, resolve(EXPERIMENT, {}))
     with pytest.raises(Problem, match="hhd"):
         await EXPERIMENT.run_on(run, TwinBench(TwinRun("hhd")))
+
+
+def test_a_pose_that_the_joints_do_not_reach_is_refused() -> None:
+    run = Run(EXPERIMENT, resolve(EXPERIMENT, {"pose_rad": [1.7, -0.9]}))
+    with pytest.raises(Problem, match="outside of the joint limits"):
+        EXPERIMENT.run(run)
