@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from hapticd.experiments.experiment import Outcome, Parameter
 from hapticd.experiments.run import Run
+from hapticd.experiments.wall_contact_approach import MODEL, approach
 from hapticd.experiments.wall_contact_claims import claims
 from hapticd.experiments.wall_contact_figure import draw
-from hapticd.experiments.wall_contact_strike import MODEL, STRENGTHS, WALLS, struck
+from hapticd.experiments.wall_contact_strike import STRENGTHS, WALLS, Strike, struck
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,12 +23,19 @@ class WallContact:
     title = "Contact with a hard wall: active, passivity control, hybrid"
     source = "KS Figs. 8, 9, Table 1, §4"
     models = (MODEL,)
-    # What fits KS's figures: 0.75 kg at the tip, and brakes that begin late (physics §9, set R1).
-    overrides: Mapping[str, Any] = {"brakes.dead_time_s": 0.058, "twin.linkage.gear_ratio": 8.0}
+    # What fits KS's figures: 0.75 kg at the tip, brakes that begin late (physics §9, set R1), and the force
+    # that the motors have at this pose, which is more than the daemon's own limit.
+    overrides: Mapping[str, Any] = {
+        "brakes.dead_time_s": 0.058,
+        "twin.brake.dead_time_s": 0.058,
+        "twin.linkage.gear_ratio": 8.0,
+        "limits.tip_force_n": 115.0,
+    }
     uncertain = (
         "brakes.torque_max_nm",
         "brakes.lag_s",
         "brakes.dead_time_s",
+        "twin.brake.dead_time_s",
         "estimator.lambda_rad_per_s",
         "drive.lag_s",
         "limits.tip_force_n",
@@ -62,7 +70,7 @@ class WallContact:
         ),
         Parameter(
             "strong_push_n",
-            54.0,
+            60.0,
             "N",
             "Steady push of the strong contact",
             "physics §9",
@@ -80,10 +88,13 @@ class WallContact:
 
     def run(self, run: Run) -> Outcome:
         """Strikes every wall weakly and strongly on the twin, then withdraws the hand."""
+        scripts = {strength: approach(run, strength) for strength in STRENGTHS}
         cases = [(strength, wall) for strength in STRENGTHS for wall in WALLS]
-        strikes = dict(
-            zip(cases, run.map(lambda case: struck(run, *case), cases, doing="striking"), strict=True)
-        )
+
+        def strike(case: tuple[str, str]) -> Strike:
+            return struck(run, case[1], scripts[case[0]])
+
+        strikes = dict(zip(cases, run.map(strike, cases, doing="striking"), strict=True))
         results = {
             strength: {wall: strikes[strength, wall].numbers() for wall in WALLS} for strength in STRENGTHS
         }

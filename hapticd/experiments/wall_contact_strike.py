@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hapticd.experiments.run import Run
+from hapticd.experiments.wall_contact_approach import ready
 from hapticd.flat_wall import flat_plane
 
 Vector = NDArray[np.float64]
 
-MODEL = "hhd"
 STRENGTHS = ("weak", "strong")
 
 BOUNCE_M = 1e-4
@@ -45,7 +45,7 @@ def _damper(run: Run) -> dict[str, Any]:
     }
 
 
-WALLS: Mapping[str, tuple[Callable[[Run], dict[str, Any]], dict[str, bool]]] = {
+WALLS: Mapping[str, tuple[Callable[[Run], dict[str, Any]], dict[str, Any]]] = {
     "active": (_spring, {"passivity": False, "brake": False}),
     "passivity": (_spring, {"passivity": True, "brake": False}),
     "hybrid": (_damper, {"passivity": False, "brake": True}),
@@ -154,35 +154,21 @@ class Strike:
         }
 
 
-def struck(run: Run, strength: str, wall: str) -> Strike:
+def struck(run: Run, wall: str, script: Mapping[str, Any]) -> Strike:
     """Drives the twin's hand into the wall, watches, and withdraws it. ``ValueError``: it never arrived."""
     law, switches = WALLS[wall]
     wall_y_m, rate_hz, watch_s = (run.number(name) for name in ("wall_y_m", "rate_hz", "watch_s"))
-    twin = run.twin(MODEL, rate_hz=rate_hz)
-    twin.hand({"type": "follow", "target_m": [0.0, run.number("start_y_m"), 0.0]})
-    twin.run(1.5)
-    twin.scene({"walls": [flat_plane([0.0, -1.0, 0.0], -wall_y_m, law(run), **switches)]})
-    twin.enable()
-    twin.run(0.5)
-    twin.hand(_push(run, strength))
+    twin = ready(run, [flat_plane([0.0, -1.0, 0.0], -wall_y_m, law(run), **switches)])
+    twin.hand(script)
     approach = twin.run(2.0 + watch_s)
     inside = approach["tip_position_m"][:, 1] > wall_y_m
     if not inside.any():
-        raise ValueError(f"The {strength} push never reached the wall: push harder or start nearer.")
+        raise ValueError("The hand never reached the wall: push harder or start nearer.")
     contact = int(np.argmax(inside))
     begin = max(0, contact - round(0.05 * rate_hz))
     end = contact + round(watch_s * rate_hz)
     records = _with_withdrawal(run, twin.run, approach[begin:end], twin.hand)
     return Strike(records, contact - begin, wall_y_m, rate_hz, watch_s)
-
-
-def _push(run: Run, strength: str) -> dict[str, Any]:
-    return {
-        "type": "push",
-        "direction": [0.0, 1.0, 0.0],
-        "force_n": run.number(f"{strength}_push_n"),
-        "speed_m_per_s": run.number(f"{strength}_speed_m_per_s"),
-    }
 
 
 def _with_withdrawal(
