@@ -52,6 +52,8 @@ def _refusal(budget: StabilityBudget, pointer: str) -> Problem:
         f"The wall asks for {asked:.4g} {unit}. At {budget.rate_hz:g} Hz with {budget.delay_s * 1e3:.3g} ms"
         f" of delay the limit is {limit.value:.4g} {unit}: {limit.meaning}."
     )
+    if budget.note is not None:
+        detail = f"{detail} {budget.note}"
     return Problem("over-stability-budget", detail, hint=_cure(budget, limit.value, unit), pointer=pointer)
 
 

@@ -13,7 +13,7 @@ from hapticd.analysis.wall_law import WallLaw
 WORTHWHILE = 1.02
 """Ratio by which a limit must rise for a parameter to be worth a mention."""
 
-DAMPING_STEPS = 16
+DAMPING_STEPS = 8
 MOST = 6
 """Proposals at most."""
 
@@ -50,7 +50,7 @@ def advise(loop: DeviceLoop, law: WallLaw) -> list[Advice]:
         for change in _changes(loop)
     ]
     if not damper:
-        found += [*_damping(loop, law, now), *_tuning(loop), *_resolution(loop)]
+        found += [_damping(loop, law, now), *_tuning(loop), *_resolution(loop)]
     worthwhile = [each for each in found if each.limit_then > WORTHWHILE * each.limit_now]
     return sorted(worthwhile, key=_gain, reverse=True)[:MOST]
 
@@ -90,15 +90,13 @@ def _changes(loop: DeviceLoop) -> Iterator[_Change]:
     yield _Change("friction", friction, 2 * friction, "N·s/m", "Add viscous friction to the device.", damped)
 
 
-def _damping(loop: DeviceLoop, law: WallLaw, now: float) -> Iterator[Advice]:
+def _damping(loop: DeviceLoop, law: WallLaw, now: float) -> Advice:
     """The damping of the wall that bears the stiffest spring."""
-    if loop.coupling.is_spring_drive:
-        return
     largest = loop.linear.largest_damping_n_s_per_m()
     tried = [largest * step / DAMPING_STEPS for step in range(DAMPING_STEPS)]
     limits = [loop.linear.largest_stiffness_n_per_m(damping) for damping in tried]
     best = max(range(DAMPING_STEPS), key=limits.__getitem__)
-    yield Advice(
+    return Advice(
         parameter="damping_n_s_per_m",
         present=law.damping_n_s_per_m,
         proposed=tried[best],

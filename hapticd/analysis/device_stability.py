@@ -9,7 +9,7 @@ from hapticd.analysis.advice import advise
 from hapticd.analysis.device_loop import DeviceLoop, device_loop
 from hapticd.analysis.settling import bound_m, push
 from hapticd.analysis.settling_library import SettlingLibrary
-from hapticd.analysis.settling_table import delay_ticks, delayed, drive_values
+from hapticd.analysis.settling_table import delay_ticks, delayed, drive_values, wall_law
 from hapticd.analysis.stability import Simulated, StabilityBudget, stability_budget
 from hapticd.analysis.wall_law import WallLaw, slopes_of
 from hapticd.laws import Law
@@ -31,7 +31,8 @@ class DeviceStability:
         self._library = library
 
     def prepare(self) -> None:
-        """Begins to simulate what budgets will need, in the background."""
+        """Begins to simulate what budgets will need, in the background, and finds the worst pose now."""
+        self.loop()
         if self._has_twin:
             self._library.prepare(self._model, self._rate_hz, delay_ticks(self._rate_hz, self._delay_s()))
 
@@ -74,11 +75,10 @@ class DeviceStability:
         return budget
 
     def _settles(self, loop: DeviceLoop, budget: StabilityBudget, ticks: int) -> bool:
-        values = drive_values(
-            self._model, loop, budget.granted_n_per_m or 0.0, budget.requested_n_s_per_m or 0.0
-        )
+        stiffness, damping = budget.granted_n_per_m or 0.0, budget.requested_n_s_per_m or 0.0
+        values = drive_values(self._model, loop, stiffness, damping)
         model = delayed(self._model, loop.rate_hz, ticks).changed(values)
-        return push(model, loop.rate_hz).settled(bound_m(loop))
+        return push(model, loop.rate_hz, law=wall_law(loop, damping)).settled(bound_m(loop))
 
     @property
     def _has_twin(self) -> bool:

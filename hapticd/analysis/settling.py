@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -12,9 +13,11 @@ from numpy.typing import NDArray
 
 from hapticd import _core
 from hapticd.analysis.device_loop import DeviceLoop
-from hapticd.flat_wall import rigid_plane
+from hapticd.flat_wall import flat_plane
 from hapticd.model import Model
 from hapticd.twin import Refused, TwinRun
+
+RIGID: Mapping[str, Any] = {"type": "motion", "eta": 0.0}
 
 SETTLED_M = 50e-6
 """Peak-to-peak motion that counts as rest: half of KS' smallest bounce (KS Fig. 8) …"""
@@ -66,14 +69,24 @@ def bound_m(loop: DeviceLoop) -> float:
     return max(SETTLED_M, SETTLED_QUANTA * loop.tip.quantum_m)
 
 
-def push(model: Model, rate_hz: float, seed: int = 1, *, share: float = PUSH_SHARE) -> Contact:
-    """Lets the hand of the twin push into a rigid wall, with the drive of ``model``. About 10 ms of work.
+def push(
+    model: Model,
+    rate_hz: float,
+    seed: int = 1,
+    *,
+    share: float = PUSH_SHARE,
+    law: Mapping[str, Any] = RIGID,
+    passivity: bool = False,
+) -> Contact:
+    """Lets the hand of the twin push into a wall. About 10 ms of work.
 
-    ``share`` is the force of the push, of the device's largest.
+    ``law`` is the wall's as the core takes it, rigid by default, and ``passivity`` whether passivity watches
+    it; ``share`` is the force of the push, of the device's largest.
     """
     wall, force_n = home_wall(model), share * json.loads(model.device_json)["limits"]["tip_force_n"]
+    plane = flat_plane(wall.normal, wall.offset_m, law, passivity=passivity)
     run = TwinRun(model, rate_hz=rate_hz, seed=seed)
-    run.scene({"allocation": "motor_only", "walls": [rigid_plane(wall.normal, wall.offset_m)]})
+    run.scene({"allocation": "motor_only", "walls": [plane]})
     try:
         run.enable()
     except Refused:

@@ -16,7 +16,7 @@ from hapticd import _core
 from hapticd.analysis.settling_table import Abandoned, SettlingTable, settling_table
 from hapticd.model import Model
 
-FORMAT = 1
+FORMAT = 2
 """Goes up when the simulation changes, so that older tables are made again."""
 
 MOST_DUE = 4

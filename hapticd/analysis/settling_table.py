@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from hapticd.analysis.bisection import largest
 from hapticd.analysis.device_loop import DeviceLoop, device_loop
-from hapticd.analysis.settling import bound_m, push
+from hapticd.analysis.settling import RIGID, bound_m, push
 from hapticd.model import Model
 
 DAMPING_SHARES = (0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8)
@@ -33,6 +33,9 @@ DELAY_SLACK = 0.1
 
 SUBSTEP_MAX_S = 5e-5
 
+STIFFEST_N_PER_M = 1e6
+"""Past anything a spring drive gives."""
+
 
 class Abandoned(Exception):
     """Nobody waits for the simulation any more."""
@@ -42,7 +45,7 @@ class Abandoned(Exception):
 class SettlingTable:
     """Largest simulated-stable stiffness, N/m, at each damping, N·s/m. Between them it is interpolated.
 
-    A spring drive has one entry, at no damping. ``bound_m`` says what counted as rest.
+    ``bound_m`` says what counted as rest.
     """
 
     damping_n_s_per_m: tuple[float, ...]
@@ -71,31 +74,23 @@ def settling_table(
     loop = device_loop(model, rate_hz, (1 + ticks) / rate_hz)
     late, rest_m = delayed(model, rate_hz, ticks), bound_m(loop)
 
-    def settles(values: dict[str, Any]) -> bool:
+    def settles(stiffness: float, damping: float) -> bool:
         if not wanted():
             raise Abandoned
-        return push(late.changed(values), rate_hz).settled(rest_m)
+        wall = drive_values(model, loop, stiffness, damping)
+        return push(late.changed(wall), rate_hz, law=wall_law(loop, damping)).settled(rest_m)
 
-    dampings = tuple(_dampings(loop))
-    found = tuple(_first_unsettled(loop, model, damping, settles) for damping in dampings)
+    limit = loop.linear.largest_damping_n_s_per_m()
+    dampings = tuple(share * limit for share in DAMPING_SHARES)
+    found = tuple(_first_unsettled(loop, damping, settles) for damping in dampings)
     return SettlingTable(dampings, found, rest_m)
 
 
-def _dampings(loop: DeviceLoop) -> Iterator[float]:
-    if loop.coupling.is_spring_drive:
-        yield 0.0
-        return
-    limit = loop.linear.largest_damping_n_s_per_m()
-    yield from (share * limit for share in DAMPING_SHARES)
-
-
-def _first_unsettled(
-    loop: DeviceLoop, model: Model, damping: float, settles: Callable[[dict[str, Any]], bool]
-) -> float:
+def _first_unsettled(loop: DeviceLoop, damping: float, settles: Callable[[float, float], bool]) -> float:
     """Up in steps until one does not settle: settling need not be monotonic, what lies below must."""
 
     def holds(stiffness: float) -> bool:
-        return settles(drive_values(model, loop, stiffness, damping))
+        return settles(stiffness, damping)
 
     stiffness = LOWEST_SHARE * loop.coupling.stiffness_n_per_m
     highest = HIGHEST_SHARE * loop.coupling.stiffness_n_per_m
@@ -116,6 +111,16 @@ def drive_values(model: Model, loop: DeviceLoop, stiffness: float, damping: floa
     factor = stiffness / loop.coupling.stiffness_n_per_m
     k_p = json.loads(model.device_json)["drive"]["k_p_v_per_rad"]
     return {"drive.k_p_v_per_rad": [factor * value for value in k_p]}
+
+
+def wall_law(loop: DeviceLoop, damping: float) -> Mapping[str, Any]:
+    """The law of the wall beside ``drive_values``: on a spring drive damping is the wall's own.
+
+    Its spring is granted as k_c, whatever more is asked for.
+    """
+    if not loop.coupling.is_spring_drive or damping == 0.0:
+        return RIGID
+    return {"type": "spring", "stiffness_n_per_m": STIFFEST_N_PER_M, "damping_n_s_per_m": damping}
 
 
 def delayed(model: Model, rate_hz: float, ticks: int) -> Model:

@@ -97,11 +97,12 @@ def passive_limits(loop: DeviceLoop, damping_n_s_per_m: float) -> dict[LimitName
 
 def stability_budget(loop: DeviceLoop, law: WallLaw, simulated: Simulated) -> StabilityBudget:
     """The budget of one wall. About 3 ms: nothing is simulated here."""
-    granted, damping = _granted(loop, law)
+    granted, damping = law.stiffness_n_per_m, law.damping_n_s_per_m
     limits = passive_limits(loop, damping)
     largest_passive = min(limits.values())
     if loop.coupling.is_spring_drive:
         limits["tuning"] = loop.coupling.stiffness_n_per_m
+        granted = min(granted, loop.coupling.stiffness_n_per_m)
     limits["linear"] = loop.linear.largest_stiffness_n_per_m(damping)
     limits["damping"] = loop.linear.largest_damping_n_s_per_m()
     if simulated.table is not None:
@@ -124,13 +125,6 @@ def stability_budget(loop: DeviceLoop, law: WallLaw, simulated: Simulated) -> St
         limits=[Limit(name=name, value=value, meaning=WORDS[name]) for name, value in limits.items()],
         note=None if simulated.table is not None or granted == 0.0 else LINEAR_ONLY,
     )
-
-
-def _granted(loop: DeviceLoop, law: WallLaw) -> tuple[float, float]:
-    """Stiffness and damping that are rendered: a spring drive's springs are k_c at most, with no damping."""
-    if not loop.coupling.is_spring_drive or law.stiffness_n_per_m == 0.0:
-        return law.stiffness_n_per_m, law.damping_n_s_per_m
-    return min(law.stiffness_n_per_m, loop.coupling.stiffness_n_per_m), 0.0
 
 
 def _judged(

@@ -14,8 +14,9 @@ from hapticd.experiments.run import Run
 from hapticd.experiments.stability_lines import Lines, lines
 from hapticd.experiments.stability_map_claims import claims
 from hapticd.experiments.stability_map_figure import draw
-from hapticd.experiments.stability_sheet import Sheet, coupling_sheet, tuning_sheet
-from hapticd.experiments.stability_survey import CYCLING, SETTLED, UNSTABLE, Survey, surveyed
+from hapticd.experiments.stability_sheet import Sheet, coupling_sheet, spring_sheet, tuning_sheet
+from hapticd.experiments.stability_survey import CYCLING, SETTLED, UNSTABLE, Survey, Trial, surveyed
+from hapticd.model import Model
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,6 +43,15 @@ class StabilityMap:
     on_device = False
     parameters = (
         Parameter("device", HHD, "", "Which twin", "chosen", choices=(HHD, PHANTOM)),
+        Parameter(
+            "law",
+            "motion",
+            "",
+            "hhd: a rigid wall on the virtual coupling, or a spring of its own",
+            "chosen",
+            choices=("motion", "spring"),
+        ),
+        Parameter("passivity", False, "", "Whether passivity watches the wall", "KS §3"),
         Parameter("rate_hz", 1000.0, "Hz", "Rate of the loop", "assumed: KS and WN give none", 200.0, 5000.0),
         Parameter("stiffness_n_per_m", (5e2, 5e5), "N/m", "hhd: least and largest K", "chosen", 1e2, 1e7),
         Parameter("damping_n_s_per_m", (0.0, 750.0), "N·s/m", "hhd: least and largest B", "chosen", 0.0, 1e4),
@@ -56,35 +66,40 @@ class StabilityMap:
 
     def run(self, run: Run) -> Outcome:
         """Surveys the grid, adds what theory says, and judges both."""
-        rate_hz, share = run.number("rate_hz"), run.number("push_share")
-        survey = surveyed(run, _sheet(run, rate_hz), rate_hz, share, MAP_SHARE)
+        trial = Trial(run.number("rate_hz"), run.number("push_share"), run.flag("passivity"))
+        survey = surveyed(run, _sheet(run), trial, MAP_SHARE)
         found, slippery = lines(survey), None
-        if run.word("device") == HHD:
-            slippery = surveyed(run, _slippery(run, rate_hz), rate_hz, share, 1.0)
+        if run.word("device") == HHD and not trial.passivity:
+            slippery = surveyed(run, _slippery(run), trial, 1.0)
 
         def figure(figure: Figure) -> None:
-            draw(figure, survey, found, rate_hz)
+            draw(figure, survey, found, trial)
 
-        judged = claims(survey, found, slippery)
+        judged = claims(survey, found, slippery, watched=trial.passivity)
         return Outcome(_results(survey, found, slippery), judged, figure, {"map": _trace(survey)})
 
 
-def _sheet(run: Run, rate_hz: float) -> Sheet:
-    columns = run.integer("columns")
+def _sheet(run: Run) -> Sheet:
+    columns, rate_hz = run.integer("columns"), run.number("rate_hz")
     if run.word("device") == PHANTOM:
         r_hat_share = np.linspace(*_ends(run, "r_hat_share"), columns)
         return tuning_sheet(run.model(PHANTOM), rate_hz, _rows(run, "k_p_share"), r_hat_share)
     damping = np.linspace(*_ends(run, "damping_n_s_per_m"), columns)
-    return coupling_sheet(run.model(HHD), rate_hz, _rows(run, "stiffness_n_per_m"), damping)
+    return _hhd(run, run.model(HHD), damping)
 
 
-def _slippery(run: Run, rate_hz: float) -> Sheet:
+def _hhd(run: Run, model: Model, damping: NDArray[np.float64]) -> Sheet:
+    make = spring_sheet if run.word("law") == "spring" else coupling_sheet
+    return make(model, run.number("rate_hz"), _rows(run, "stiffness_n_per_m"), damping)
+
+
+def _slippery(run: Run) -> Sheet:
     """The column without damping once more, with a tenth of the dry friction."""
     model = run.model(HHD)
     bearings = json.loads(model.twin_json)["friction"]["coulomb_nm"]
     drag = json.loads(model.device_json)["brakes"]["drag_nm"]
     less = {COULOMB: _less(bearings), "brakes.drag_nm": _less(drag)}
-    return coupling_sheet(model.changed(less), rate_hz, _rows(run, "stiffness_n_per_m"), np.zeros(1))
+    return _hhd(run, model.changed(less), np.zeros(1))
 
 
 def _less(torque_nm: list[float]) -> list[float]:

@@ -20,12 +20,30 @@ WALL_N_PER_M = 150e3
 """KS' wall, and what physics §6 takes for its loop."""
 
 
-def claims(survey: Survey, found: Lines, slippery: Survey | None) -> tuple[Claim, ...]:
-    """The claims of physics §2.2 and §6 that a map decides; ``slippery`` is the hhd's second look."""
-    general = (_passive(survey, found), _linear(survey, found))
-    if slippery is None:
+def claims(survey: Survey, found: Lines, slippery: Survey | None, *, watched: bool) -> tuple[Claim, ...]:
+    """The claims of physics §2.2 and §6 that a map decides.
+
+    ``slippery`` is the hhd's second look, ``watched`` whether passivity watched the wall.
+    """
+    general = [_passive(survey, found), _linear(survey, found)]
+    if watched:
+        general.append(_passivity(survey))
+    if survey.sheet.loop_at(*survey.sheet.points()[0]).coupling.is_spring_drive:
         return (*general, _delay_costs_the_spring_drive())
-    return (*general, _dry_friction(found, slippery), _needed_friction(), _damping_limit())
+    if slippery is not None:
+        general.append(_dry_friction(found, slippery))
+    return (*general, _needed_friction(), _damping_limit())
+
+
+def _passivity(survey: Survey) -> Claim:
+    settled = int(survey.settled().sum())
+    return judged(
+        "Passivity control makes walls stable that are not stable by themselves",
+        "KS §3",
+        "every wall of the map settles under a gentle push",
+        f"{settled} of {survey.outcome.size}",
+        holds=settled == survey.outcome.size,
+    )
 
 
 def _passive(survey: Survey, found: Lines) -> Claim:

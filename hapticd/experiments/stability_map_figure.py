@@ -8,7 +8,7 @@ import numpy as np
 
 from hapticd.experiments.figure_file import COLOURS
 from hapticd.experiments.stability_lines import Lines
-from hapticd.experiments.stability_survey import Survey
+from hapticd.experiments.stability_survey import Survey, Trial
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,7 +19,7 @@ FIELDS = ("#D9EAF7", "#F6D28B", "#C9B8B0")
 NAMES = ("comes to rest", "limit cycle in the wall", "leaves the wall")
 
 
-def draw(figure: Figure, survey: Survey, found: Lines, rate_hz: float) -> None:
+def draw(figure: Figure, survey: Survey, found: Lines, trial: Trial) -> None:
     """The map with the passive and the linear limit."""
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
@@ -39,7 +39,8 @@ def draw(figure: Figure, survey: Survey, found: Lines, rate_hz: float) -> None:
         axes.plot(sheet.across, shown, style, color=colour, linewidth=1.8, markersize=3.5, label=label)
     axes.set_yscale("log")
     axes.set(xlabel=sheet.across_label, ylabel=sheet.up_label, ylim=(sheet.up[0], sheet.up[-1]))
-    axes.set_title(f"A rigid wall under a gentle push, {rate_hz:g} Hz", fontsize=10)
+    watched = ", watched by passivity" if trial.passivity else ""
+    axes.set_title(f"A wall under a push at {trial.rate_hz:g} Hz{watched}", fontsize=10)
     handles = [Patch(color=colour, label=name) for colour, name in zip(FIELDS, NAMES, strict=True)]
     axes.legend(handles=[*handles, *axes.get_legend_handles_labels()[0]], loc="lower right", fontsize=8.5)
     axes.grid(False)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hapticd.analysis.device_loop import DeviceLoop, device_loop
+from hapticd.analysis.settling import RIGID
 from hapticd.model import Model
 
 Vector = NDArray[np.float64]
@@ -28,6 +29,7 @@ class Sheet:
     across_label: str
     up_label: str
     model_at: Callable[[float, float], Model]
+    law_at: Callable[[float, float], Mapping[str, Any]]
     loop_at: Callable[[float, float], DeviceLoop]
     stiffness: Callable[[float, float], float]
     damping: Callable[[float, float], float]
@@ -50,10 +52,21 @@ def coupling_sheet(model: Model, rate_hz: float, stiffness: Vector, damping: Vec
         across_label="damping B of the wall, N·s/m",
         up_label="stiffness K of the wall, N/m",
         model_at=changed,
+        law_at=lambda b, k: RIGID,
         loop_at=lambda b, k: loop,
         stiffness=lambda b, k: k,
         damping=lambda b, k: b,
     )
+
+
+def spring_sheet(model: Model, rate_hz: float, stiffness: Vector, damping: Vector) -> Sheet:
+    """Damping across, stiffness up: a wall with the spring law, the device as it is."""
+
+    def spring(b: float, k: float) -> Mapping[str, Any]:
+        return {"type": "spring", "stiffness_n_per_m": k, "damping_n_s_per_m": b}
+
+    coupled = coupling_sheet(model, rate_hz, stiffness, damping)
+    return replace(coupled, model_at=lambda b, k: model, law_at=spring)
 
 
 def tuning_sheet(model: Model, rate_hz: float, share: Vector, r_hat_share: Vector) -> Sheet:
@@ -71,6 +84,7 @@ def tuning_sheet(model: Model, rate_hz: float, share: Vector, r_hat_share: Vecto
         across_label="cancelled share R̂/R of the resistance",
         up_label="K_P as a share of k_T dR/L",
         model_at=changed,
+        law_at=lambda r, s: RIGID,
         loop_at=loop,
         stiffness=lambda r, s: loop(r, s).coupling.stiffness_n_per_m,
         damping=lambda r, s: 0.0,

@@ -39,18 +39,34 @@ class Survey:
         return np.asarray(self.outcome == SETTLED)
 
 
-def surveyed(run: Run, sheet: Sheet, rate_hz: float, share: float, until: float) -> Survey:
-    """Pushes into the wall at every point of the sheet; ``share`` of the device's largest force.
+@dataclass(frozen=True)
+class Trial:
+    """How every point is tried. ``share`` of the device's largest force is the push."""
+
+    rate_hz: float
+    share: float
+    passivity: bool
+
+
+def surveyed(run: Run, sheet: Sheet, trial: Trial, until: float) -> Survey:
+    """Pushes into the wall at every point of the sheet.
 
     Rows that an earlier run with the same parameters finished are read from ``run.state_dir``.
     """
     columns, rows = len(sheet.across), len(sheet.up)
     rest_m = bound_m(sheet.loop_at(*sheet.points()[0]))
-    kept = _Kept(run.state_dir, _key(run, sheet, rate_hz, share))
+    kept = _Kept(run.state_dir, _key(run, sheet, trial))
     done = kept.load()
 
     def one(point: tuple[float, float]) -> Contact:
-        return push(sheet.model_at(*point), rate_hz, run.seed, share=share)
+        return push(
+            sheet.model_at(*point),
+            trial.rate_hz,
+            run.seed,
+            share=trial.share,
+            law=sheet.law_at(*point),
+            passivity=trial.passivity,
+        )
 
     begin = len(done)
     for first in range(begin, rows, ROWS_AT_ONCE):
@@ -72,14 +88,15 @@ def _outcome(contact: Contact, rest_m: float) -> int:
     return CYCLING if contact.touching and not contact.faulty else UNSTABLE
 
 
-def _key(run: Run, sheet: Sheet, rate_hz: float, share: float) -> str:
+def _key(run: Run, sheet: Sheet, trial: Trial) -> str:
     """Name of what is kept: changes with anything that could change a point."""
     corner = sheet.model_at(*sheet.points()[0])
     facts = (
         FORMAT,
         _core.build_info()["version"],
         (corner.device_json, corner.twin_json),
-        (sheet.across.tolist(), sheet.up.tolist(), rate_hz, share, run.seed),
+        (sheet.across.tolist(), sheet.up.tolist(), run.seed),
+        (trial, sorted(sheet.law_at(*sheet.points()[0]).items())),
     )
     return hashlib.blake2b(repr(facts).encode(), digest_size=16).hexdigest()
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from hapticd.analysis.settling_table import SettlingTable, settling_table
+import pytest
+
+from hapticd.analysis import settling_table
+from hapticd.analysis.settling_table import SettlingTable
 from hapticd.model import load_model
 
 PHANTOM, HHD = load_model("phantom-1.0"), load_model("hhd")
@@ -14,8 +17,10 @@ RATE_HZ = 1000.0
 
 @cache
 def phantom_table() -> SettlingTable:
-    """The smaller of the two tables: one damping."""
-    return settling_table(PHANTOM, RATE_HZ, 0)
+    """The PHANTOM's table at two dampings, none and the largest looked at."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(settling_table, "DAMPING_SHARES", (0.0, 0.8))
+        return settling_table.settling_table(PHANTOM, RATE_HZ, 0)
 
 
 def files(directory: Path) -> list[str]:

@@ -47,15 +47,15 @@ def test_the_limit_is_where_the_worst_motion_draws_all_that_friction_takes(
     wall: SampledWall, damping: float
 ) -> None:
     limit = wall.largest_stiffness_n_per_m(damping)
-    assert drawn(wall, limit, damping) == pytest.approx(1.0, abs=2e-3)
-    assert drawn(wall, 1.05 * limit, damping) > 1.01
+    assert drawn(wall, limit, damping) == pytest.approx(1.0, abs=0.01)
+    assert drawn(wall, 1.05 * limit, damping) > 1.02
 
 
 def drawn(wall: SampledWall, stiffness: float, damping: float) -> float:
     """Largest share of the friction's loss that the wall gives back, over all motions with their images."""
     period_s = 1.0 / wall.rate_hz
     worst = 0.0
-    for angle in np.linspace(0.02, np.pi, 45):
+    for angle in np.linspace(0.02, np.pi, 24):
         omega = (angle + 2 * np.pi * np.arange(-40, 41)) / period_s
         lag, back = 1 + 1j * omega * wall.lag_s, np.exp(-1j * angle)
         keep = np.exp(-wall.lambda_rad_per_s * period_s)

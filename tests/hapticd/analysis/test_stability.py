@@ -20,7 +20,7 @@ from tests.hapticd.analysis.slow_tables import HHD, PHANTOM, RATE_HZ
 
 TABLES = {
     HHD.name: SettlingTable((0.0, 300.0), (100e3, 190e3), 50e-6),
-    PHANTOM.name: SettlingTable((0.0,), (4900.0,), 118e-6),
+    PHANTOM.name: SettlingTable((0.0, 20.0), (4900.0, 5500.0), 118e-6),
 }
 
 
