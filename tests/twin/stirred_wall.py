@@ -66,8 +66,24 @@ class StirredWall:
         surface_m = float(across @ self._tip) + DEPTH_M[self.model]
         return flat_plane(across.tolist(), surface_m, LAWS[self.law], key=OTHER, **self._switches)
 
+    def body(self, shape: str, *, hollow: bool, moved_m: float = 0.0) -> dict[str, Any]:
+        """The wall as a sphere, box or capsule that the hand stirs in without coming out of it."""
+        center = (self._tip + moved_m * self._up).tolist()
+        reach_m = 3.0 * DEPTH_M[self.model]
+        across = reach_m * np.eye(3)[0]
+        shapes: dict[str, dict[str, Any]] = {
+            "sphere": {"center_m": center, "radius_m": reach_m},
+            "box": {"center_m": center, "axes": np.eye(3).tolist(), "half_m": [reach_m] * 3},
+            "capsule": {
+                "from_m": (center - across).tolist(),
+                "to_m": (center + across).tolist(),
+                "radius_m": reach_m,
+            },
+        }
+        return {**self.wall(), "shape": {"type": shape, "hollow": hollow, **shapes[shape]}}
+
     def stir(self, before: Mapping[str, Any], after: Mapping[str, Any], fade_s: float) -> NDArray[Any]:
-        """Records from just before the scene ``before`` is replaced by ``after``, and half a second from then on."""
+        """Records of the half second after ``before`` is replaced by ``after``, and of ten ticks before."""
         self._twin.scene(before)
         self._twin.enable()
         self._twin.hand(

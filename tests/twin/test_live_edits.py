@@ -93,3 +93,29 @@ def test_edit_that_does_not_fade_is_still_held_to_the_slew_limit(law: str, edit:
     records = on.stir(*{**KEEPING, **TAKING}[edit](on), 0.0)
     assert largest_step_n(records) <= step_max_n(model)
     assert set(records["state"]) == {ENABLED}
+
+
+BODIES = ["sphere", "box", "capsule"]
+
+
+@pytest.mark.parametrize("model", ["phantom-1.0", "hhd"])
+@pytest.mark.parametrize("hollow", [False, True], ids=["solid", "hollow"])
+@pytest.mark.parametrize("body", BODIES)
+def test_body_put_around_the_tip_and_moved_never_steps(body: str, hollow: bool, model: str) -> None:
+    on = StirredWall(model, "spring", passivity=False, brake=True)
+    around, moved = on.body(body, hollow=hollow), on.body(body, hollow=hollow, moved_m=0.004)
+    for before, after in ((scene(), scene(around)), (scene(around), scene(moved))):
+        records = StirredWall(model, "spring", passivity=False, brake=True).stir(before, after, FADE_S)
+        assert largest_step_n(records) <= step_max_n(model)
+        assert set(records["state"]) == {ENABLED}
+        # A shell around the tip leaves it free inside; a solid body pushes it out.
+        assert (records["contact_count"][-1] > 0) != hollow
+
+
+@pytest.mark.parametrize("model", ["phantom-1.0", "hhd"])
+@pytest.mark.parametrize("body", BODIES)
+def test_wall_that_takes_another_shape_around_the_tip_never_steps(body: str, model: str) -> None:
+    on = StirredWall(model, "motion", passivity=False, brake=True)
+    records = on.stir(scene(on.wall()), scene(on.body(body, hollow=False)), FADE_S)
+    assert largest_step_n(records) <= step_max_n(model)
+    assert records["contact_count"][-1] > 0
