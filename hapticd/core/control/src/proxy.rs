@@ -18,8 +18,12 @@ const REST_M: f64 = 1e-10;
 /// Most pushes out of a wall in one tick.
 const PUSHES: usize = 8;
 
-/// Cuts of a round cavity in one round at most. Each squares the error of the one before.
-const CUTS: usize = 8;
+/// Cuts of a round cavity in one round at most. Each leaves a quarter of the error of the one
+/// before, or less.
+const CUTS: usize = 32;
+
+/// Halvings of a step that still leaves a round cavity after all cuts.
+const HALVINGS: i32 = 20;
 
 /// Owner of a half-space that is no tangent plane at the proxy.
 const NOBODY: usize = usize::MAX;
@@ -85,8 +89,11 @@ impl Proxy {
         let from = self.history.start(walls, x);
         let p = self.rest(walls, x, from, around);
         self.history.point = Some(p);
+        // A soft set-point is no further from the tip than the proxy: in a sharp corner one wall
+        // pushes it into the next, that the tip itself is not in.
+        let span_m = (p - x).norm();
         for (wall, support) in around.by_wall() {
-            if wall != NOBODY && support.gap_m(x) < 0.0 {
+            if wall != NOBODY && support.gap_m(x) < span_m {
                 self.facings.push(Facing {
                     wall,
                     normal: support.normal.into(),
@@ -130,11 +137,14 @@ impl Proxy {
         let mut q = around.nearest(x);
         for _ in 0..CUTS {
             if !self.cut(walls, &q, around) {
-                break;
+                return p + around.reach(p, &q) * (q - p);
             }
             q = around.nearest(x);
         }
-        p + around.reach(p, &q) * (q - p)
+        (0..HALVINGS)
+            .map(|halving| p + 0.5_f64.powi(halving) * (q - p))
+            .find(|shorter| !self.cut(walls, shorter, around))
+            .unwrap_or(*p)
     }
 
     /// Fences the round cavities in where `q` is beyond their surface.

@@ -5,7 +5,7 @@ use hapticd_control::controller::{Controller, Event, TickInput};
 use hapticd_control::io::{status, Exchange, Observation};
 use hapticd_control::model::DeviceModel;
 use hapticd_control::record::TickRecord;
-use hapticd_control::scene::{Mapping, Scene, Wall};
+use hapticd_control::scene::{Mapping, Scene, Shape, Wall, MAX_WALLS};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -35,6 +35,40 @@ fn scene(dof: usize, mapping: Mapping) -> Scene {
     scene
 }
 
+/// As many walls as a scene holds, of every shape, the nearest around the home pose.
+fn crowd(dof: usize) -> Scene {
+    let mut scene = scene(dof, Mapping::Transpose);
+    scene.count = MAX_WALLS;
+    for (i, wall) in scene.walls.iter_mut().enumerate().skip(8) {
+        let hollow = i % 2 == 0;
+        let center_m = [0.02 * (i % 16) as f64 - 0.15, 0.02 * (i / 16) as f64, 0.0];
+        let shape = match i % 3 {
+            0 => Shape::Sphere {
+                center_m,
+                radius_m: 0.03,
+                hollow,
+            },
+            1 => Shape::Box {
+                center_m,
+                axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+                half_m: [0.02, 0.02, 1.0],
+                hollow,
+            },
+            _ => Shape::Capsule {
+                from_m: center_m,
+                to_m: [0.0, 0.2, 0.0],
+                radius_m: 0.02,
+                hollow,
+            },
+        };
+        *wall = Wall {
+            shape,
+            ..Wall::plane(i as u64, [0.0, 0.0, 1.0], 0.0, 0.3)
+        };
+    }
+    scene
+}
+
 /// Everything that can happen in a tick: ramp, contact, edits, missing frames, faults, recovery.
 fn drive(model: &DeviceModel) -> u64 {
     let mut controller = Controller::new(model, 1000.0).expect("model is sound");
@@ -46,7 +80,11 @@ fn drive(model: &DeviceModel) -> u64 {
         let angle = model.joints.home_rad[i] - model.joints.zero_rad[i];
         observation.counts[i] = (angle * model.joints.counts_per_rad[i]) as i64;
     }
-    let scenes = [Mapping::Transpose, Mapping::Inverse].map(|mapping| scene(model.dof, mapping));
+    let scenes = [
+        scene(model.dof, Mapping::Transpose),
+        scene(model.dof, Mapping::Inverse),
+        crowd(model.dof),
+    ];
     let mut record = TickRecord::default();
     let mut contacts = 0;
     for tick in 0..2000_u64 {
@@ -56,7 +94,7 @@ fn drive(model: &DeviceModel) -> u64 {
         observation.t_device_ns += 1_000_000;
         assert_no_alloc(|| {
             if tick % 300 == 10 {
-                controller.adopt(&scenes[(tick / 300 % 2) as usize]);
+                controller.adopt(&scenes[(tick / 300 % 3) as usize]);
             }
             if tick % 700 == 20 {
                 let _ = controller.event(Event::Enable);

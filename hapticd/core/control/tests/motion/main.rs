@@ -2,6 +2,7 @@
 
 mod contact;
 mod couple;
+mod edits;
 mod environment;
 mod estimate;
 mod kinematics;
@@ -10,5 +11,6 @@ mod linear;
 mod mapping;
 mod models;
 mod proxy;
+mod resting;
 mod solids;
 mod walls;

@@ -162,7 +162,7 @@ impl Hand {
 
     /// Moves the tip and lets the proxy come to rest.
     pub fn settle(&mut self, x: &V3) -> V3 {
-        (0..50).for_each(|_| {
+        (0..20).for_each(|_| {
             self.to(x);
         });
         self.to(x)
