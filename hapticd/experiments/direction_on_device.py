@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,11 +34,18 @@ ESTIMATED = "the motors' estimate, which sees neither friction nor the sensor's 
 
 @dataclass(frozen=True)
 class OnDevice:
-    """Both mappings, where the tip was, m, and whence the force is known."""
+    """Both mappings, where the tip was and how far it moved, m, and whence the force is known."""
 
     series: Mapping[str, Series]
     tip: Vector
     force_from: str
+    depth_m: float
+    moved_m: float
+
+    @property
+    def locked(self) -> bool:
+        """Whether the tip stayed inside of every wall."""
+        return self.moved_m < self.depth_m
 
 
 @dataclass(frozen=True)
@@ -49,25 +57,43 @@ class Held:
     k_inv: Matrix
 
 
+@dataclass(frozen=True)
+class Reading:
+    """Force on what holds the tip, N, whether a sensor measured it, and where the tip was, m."""
+
+    force_n: Vector
+    sensed: bool
+    tip: Vector
+
+
 async def measure_on(run: Run, bench: DeviceBench) -> OnDevice:
     """Every wall in turn, both mappings. ``Problem`` when the device is no PHANTOM."""
     if bench.model != MODEL:
         detail = f"{bench.device_id} is a {bench.model}; both mappings are those of spring drives."
         raise Problem("parameter-invalid", detail, hint=f"Choose a device of model {MODEL}.")
     held = await _held(run, bench)
+    try:
+        return await _all_around(run, bench, held)
+    finally:
+        if bench.is_twin:
+            await bench.hand({"type": "free"})
+
+
+async def _all_around(run: Run, bench: DeviceBench, held: Held) -> OnDevice:
     found: dict[str, Series] = {}
-    sensed = False
+    readings: list[Reading] = []
+    angles = wall_angles(run.number("spacing_deg"))
     for mapping in ("transpose", "inverse"):
-        angles, forces = wall_angles(run.number("spacing_deg")), []
         for index, angle in enumerate(angles):
-            run.progress(
-                (len(found) + index / len(angles)) / 2, f"{mapping}, wall {index + 1} of {len(angles)}"
-            )
-            force, sensed = await _force(run, bench, held, mapping, float(angle))
-            forces.append(held.plane @ force)
-        expected = direction_error_rad(held.k_inv, angles) * (mapping == "inverse")
-        found[mapping] = Series(angles, np.array(forces), expected)
-    return OnDevice(found, held.tip, MEASURED if sensed else ESTIMATED)
+            done = (len(found) + index / len(angles)) / 2
+            run.progress(done, f"{mapping}, wall {index + 1} of {len(angles)}")
+            readings.append(await _read(run, bench, held, mapping, float(angle)))
+        forces = np.array([held.plane @ reading.force_n for reading in readings[-len(angles) :]])
+        inverse = partial(direction_error_rad, held.k_inv)
+        found[mapping] = Series(angles, forces, inverse if mapping == "inverse" else np.zeros_like)
+    moved_m = max(float(np.linalg.norm(reading.tip - held.tip)) for reading in readings)
+    force_from = MEASURED if readings[-1].sensed else ESTIMATED
+    return OnDevice(found, held.tip, force_from, run.number("depth_m"), moved_m)
 
 
 async def _held(run: Run, bench: DeviceBench) -> Held:
@@ -85,10 +111,8 @@ async def _held(run: Run, bench: DeviceBench) -> Held:
     return Held(tip, plane, locked_joints((plane @ jacobian)[:, 1:], joint_stiffness(model)[1:]))
 
 
-async def _force(
-    run: Run, bench: DeviceBench, held: Held, mapping: str, angle_rad: float
-) -> tuple[Vector, bool]:
-    """What a wall adds to the force of the device on what holds it, N; whether a sensor measured it."""
+async def _read(run: Run, bench: DeviceBench, held: Held, mapping: str, angle_rad: float) -> Reading:
+    """What a wall adds to the force of the device on what holds it."""
     n = held.plane.T @ np.array([np.cos(angle_rad), np.sin(angle_rad)])
     wall = plane_wall(n, float(n @ held.tip) + run.number("depth_m"))
     settle_s, measure_s = run.number("settle_s"), run.number("measure_s")
@@ -100,4 +124,5 @@ async def _force(
     sensed = bool(np.any(records["sensor_force_n"]))
     column, sign = ("sensor_force_n", -1.0) if sensed else ("tip_force_n", 1.0)
     before = tare[column][-len(records) :].mean(axis=0)
-    return sign * (records[column].mean(axis=0) - before), sensed
+    force_n = sign * (records[column].mean(axis=0) - before)
+    return Reading(force_n, sensed, records["tip_position_m"].mean(axis=0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,11 +18,16 @@ HALF_TURNS = 2
 
 @dataclass(frozen=True)
 class Series:
-    """Wall normals (n,) rad, forces on the sensor in the plane (n, 2) N, errors expected (n,) rad."""
+    """Wall normals (n,) rad, forces on the sensor in the plane (n, 2) N, and the error expected."""
 
     angle_rad: Vector
     force_n: Matrix
-    expected_rad: Vector
+    closed_form: Callable[[Vector], Vector]
+
+    @property
+    def expected_rad(self) -> Vector:
+        """The closed form at the walls, (n,)."""
+        return self.closed_form(self.angle_rad)
 
     @property
     def error_rad(self) -> Vector:
@@ -55,6 +61,11 @@ class Series:
         fitted = basis @ np.linalg.lstsq(basis, self.error_rad, rcond=None)[0]
         around = self.error_rad - self.error_rad.mean()
         return float(1.0 - np.sum((self.error_rad - fitted) ** 2) / max(np.sum(around**2), 1e-300))
+
+    def has(self, angle_deg: float) -> bool:
+        """Whether there is a wall with this normal."""
+        apart = np.angle(np.exp(1j * (self.angle_rad - np.radians(angle_deg))))
+        return bool(np.abs(apart).min() < 1e-6)
 
     def at(self, angle_deg: float) -> float:
         """Error for the wall whose normal is nearest to an angle, °."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -107,6 +108,7 @@ class ForceDirection:
         results = {
             "force_from": found.force_from,
             "tip_m": found.tip.tolist(),
+            "tip_moved_m": found.moved_m,
             **{name: one.numbers() for name, one in found.series.items()},
         }
 
@@ -129,14 +131,14 @@ def series(run: Run, pose: PhantomPose, mapping: str, overrides: Mapping[str, An
         return phantom.measure(scene, run.number("settle_s"), run.number("measure_s"))[1]
 
     forces = np.array(run.map(force, [float(angle) for angle in angles], doing=mapping, until=0.9))
-    return Series(angles, forces[:, list(PLANE)], expected_rad(pose, mapping, angles))
+    return Series(angles, forces[:, list(PLANE)], closed_form(pose, mapping))
 
 
-def expected_rad(pose: PhantomPose, mapping: str, angle_rad: Vector) -> Vector:
-    """The error in closed form: that of K_inv for the inverse, none for the transpose."""
+def closed_form(pose: PhantomPose, mapping: str) -> Callable[[Vector], Vector]:
+    """The error by wall normal: that of K_inv for the inverse, none for the transpose."""
     if mapping == "transpose":
-        return np.zeros_like(angle_rad)
-    return direction_error_rad(locked_joints(pose.plane_jacobian, pose.plane_k_q), angle_rad)
+        return np.zeros_like
+    return partial(direction_error_rad, locked_joints(pose.plane_jacobian, pose.plane_k_q))
 
 
 def imperfections() -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -157,7 +158,7 @@ def claims_on_device(found: OnDevice) -> tuple[Claim, ...]:
     """What a device with a locked tip can show."""
     transpose, inverse = found.series["transpose"], found.series["inverse"]
     by = f"by {found.force_from}"
-    return (
+    claims = (
         judged(
             "Jacobian transpose keeps the force near the wall normal",
             "WN §VI, Fig. 6",
@@ -173,3 +174,7 @@ def claims_on_device(found: OnDevice) -> tuple[Claim, ...]:
             holds=inverse.max_off_expected_deg < 5.0,
         ),
     )
+    if found.locked:
+        return claims
+    reason = f"the tip is not locked: it moved by {1e3 * found.moved_m:.2f} mm"
+    return tuple(replace(claim, verdict="undecidable", reason=reason) for claim in claims)

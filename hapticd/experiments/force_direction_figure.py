@@ -37,7 +37,8 @@ def draw(
     errors.set(xlabel="angle of the wall normal, °", ylabel="error of the force's direction, °")
     errors.set_xticks(range(0, 361, 30))
     errors.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    _draw_vectors(figure.add_subplot(grid[1, 0]), series)
+    if all(one.has(np.degrees(WALL_ABOVE_RAD)) for one in series.values()):
+        _draw_vectors(figure.add_subplot(grid[1, 0]), series)
     if moving is not None:
         _draw_motion(figure.add_subplot(grid[1, 1]), moving)
 
@@ -46,9 +47,9 @@ def _draw_errors(axes: Axes, series: Series, name: str, *, filled: bool) -> None
     mark, colour = MARKS[name]
     wall_deg = np.degrees(series.angle_rad)
     if filled:
-        order = np.append(np.arange(len(wall_deg)), 0)
-        around = np.append(wall_deg, 360.0)
-        axes.plot(around, np.degrees(series.expected_rad[order]), "-", color=colour, linewidth=1)
+        around_deg = np.linspace(0.0, 360.0, 361)
+        line = np.degrees(series.closed_form(np.radians(around_deg)))
+        axes.plot(around_deg, line, "-", color=colour, linewidth=1)
     label = LABELS[name] if filled else f"{LABELS[name]}, with ripple\nand friction"
     face = colour if filled else "none"
     axes.plot(

@@ -72,7 +72,7 @@ def test_only_the_scatter_of_the_transpose_fails(outcome: Outcome) -> None:
 
 
 def test_the_error_is_counter_clockwise_from_normal_to_force() -> None:
-    series = Series(np.array([0.0, np.pi / 2]), np.array([[1.0, 0.1], [0.1, 1.0]]), np.zeros(2))
+    series = Series(np.array([0.0, np.pi / 2]), np.array([[1.0, 0.1], [0.1, 1.0]]), np.zeros_like)
     np.testing.assert_allclose(series.error_rad, [np.arctan(0.1), -np.arctan(0.1)])
     assert series.at(80.0) == pytest.approx(np.degrees(-np.arctan(0.1)))
 
@@ -81,7 +81,7 @@ def test_noise_is_not_taken_for_an_ellipse() -> None:
     angles = wall_angles(15.0)
     noise = np.random.default_rng(1).normal(size=24) * 0.01
     across = np.stack([np.cos(angles + noise), np.sin(angles + noise)], axis=1)
-    assert Series(angles, across, np.zeros(24)).periodic_share < 0.5
+    assert Series(angles, across, np.zeros_like).periodic_share < 0.5
 
 
 async def test_a_device_with_a_locked_tip_shows_the_same_by_its_motors() -> None:
@@ -94,6 +94,13 @@ async def test_a_device_with_a_locked_tip_shows_the_same_by_its_motors() -> None
     np.testing.assert_allclose(outcome.results["inverse"]["error_deg"], expected, atol=1.0)
     assert outcome.results["transpose"]["max_abs_error_deg"] < 0.5
     assert bench.scenes[-1]["walls"] == []
+
+
+async def test_nothing_is_said_of_a_device_whose_tip_is_not_locked() -> None:
+    run = Run(EXPERIMENT, resolve(EXPERIMENT, {"spacing_deg": 90.0, "rest_s": 0.0}))
+    outcome = await EXPERIMENT.run_on(run, TwinBench(run.twin("phantom-1.0"), is_twin=False))
+    assert {claim.verdict for claim in outcome.claims} == {"undecidable"}
+    assert all("not locked" in (claim.reason or "") for claim in outcome.claims)
 
 
 async def test_a_device_with_torque_drives_is_refused() -> None:
