@@ -85,7 +85,8 @@ class Jobs:
             work = self._running[1]
             work.cancel()
             await asyncio.wait({work})
-        if not job.has_ended:
+            self._note_end(job, work)
+        else:
             self._end(job, job.cancel)
         return job
 
@@ -117,6 +118,9 @@ class Jobs:
             self._note_end(job, work)
 
     def _note_end(self, job: Job, work: asyncio.Task[list[str]]) -> None:
+        """Notes how the work ended, once: both the worker and who cancelled it wait for it."""
+        if job.has_ended:
+            return
         error = None if work.cancelled() else work.exception()
         if work.cancelled() and self._stopping:
             self._end(
