@@ -26,7 +26,7 @@ NO_ADMISSIONS: Mapping[str, Admission] = {}
 
 @dataclass(frozen=True)
 class Stiffness:
-    """N/m; the share of what was asked for; N·s/m; why. None is what cannot be said."""
+    """N/m; the share of what the device gives a rigid wall; N·s/m; why. None is what cannot be said."""
 
     n_per_m: float | None
     fraction: float | None
@@ -112,11 +112,13 @@ class Granter:
 
     def _spring(self, k: float, b: float, k_c: float | None) -> Stiffness:
         if self.coupling is not None:
-            return Stiffness(k, 1.0, b, "Motors render any stiffness within the stability budget.")
+            return Stiffness(k, None, b, "Motors render any stiffness within the stability budget.")
         if k_c is None:
             return Stiffness(None, None, b, UNKNOWN)
-        fraction = min(1.0, k_c / k)
-        why = f"The spring drive can give at most {k_c:.0f} N/m at this pose: {fraction:.0%} of {k:.0f} N/m."
+        fraction = min(1.0, k / k_c)
+        why = f"{k:.0f} N/m is {fraction:.0%} of the {k_c:.0f} N/m that the spring drive gives at this pose."
+        if k > k_c:
+            why = f"The spring drive can give at most {k_c:.0f} N/m at this pose, not {k:.0f} N/m."
         return Stiffness(min(k, k_c), fraction, b, why)
 
     def _brake(self, law: Law, scene: Scene) -> tuple[bool, str | None]:

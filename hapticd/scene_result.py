@@ -14,9 +14,9 @@ from hapticd.snapshot import Applied, Report
 class Granted(Report):
     """What a wall comes to at the present pose, and why. Null is what cannot be said.
 
-    ``stiffness_fraction`` is the granted share of the stiffness asked for. ``brake`` is whether brakes take
-    part in it, ``friction_actuator`` what renders its friction, ``forced`` whether it was let in over its
-    stability budget. ``budget`` is there when the edit had to be let in.
+    ``stiffness_fraction`` is its share of what the device gives a rigid wall at this pose. ``brake`` is
+    whether brakes take part in it, ``friction_actuator`` what renders its friction, ``forced`` whether it was
+    let in over its stability budget. ``budget`` is there when the edit had to be let in.
     """
 
     stiffness_n_per_m: float | None = None

@@ -180,7 +180,7 @@ async def test_patch_with_null_takes_friction_away(http: httpx.AsyncClient) -> N
 async def test_wall_is_told_what_it_is_granted_on_write_and_on_read(http: httpx.AsyncClient) -> None:
     spring = {"type": "spring", "stiffness_n_per_m": 3000}
     written = (await http.put(f"{WALLS}/floor", json=floor(law=spring))).json()
-    assert (written["granted"]["stiffness_n_per_m"], written["granted"]["stiffness_fraction"]) == (1500, 0.5)
+    assert (written["granted"]["stiffness_n_per_m"], written["granted"]["stiffness_fraction"]) == (1500, 1)
     assert "at most 1500 N/m at this pose" in written["granted"]["why"][0]
     read = (await http.get(f"{WALLS}/floor")).json()
     assert read["granted"] == {**written["granted"], "budget": None}

@@ -17,9 +17,13 @@ FLOOR_PATH = "/api/v1/devices/phantom/scene/walls/floor"
 ADD_FLOOR = ("walls", "add", "phantom", "floor", "--point", "0,0,-0.02", "--normal", "0,0,1")
 
 
+def floor(**members: Any) -> dict[str, Any]:
+    return {"id": "floor", "shape": {}, "law": {"type": "motion", "eta": 0.0}, **members}
+
+
 def wall_result(**members: Any) -> dict[str, Any]:
     return {
-        "wall": None,
+        "wall": floor(),
         "stiffness_n_per_m": 912.4,
         "granted": granted(912.4),
         "etag": '"8"',
@@ -165,9 +169,16 @@ def test_wall_that_is_not_one_shape_is_refused_before_anything_is_sent(
 
 
 def test_a_grant_below_what_was_asked_for_is_told_with_its_reason(run: Run, double: DaemonDouble) -> None:
-    less = granted(1500.0, stiffness_fraction=0.5, why=["The spring drive gives at most 1500 N/m."])
-    double.answer(f"PUT {FLOOR_PATH}", wall_result(granted=less))
-    assert "1500 N/m at this pose (The spring drive gives at most 1500 N/m)" in run(*ADD_FLOOR).stdout
+    spring = floor(law={"type": "spring", "stiffness_n_per_m": 3000})
+    less = granted(1500.0, why=["The spring drive can give at most 1500 N/m."])
+    double.answer(f"PUT {FLOOR_PATH}", wall_result(wall=spring, granted=less))
+    assert "1500 N/m at this pose (The spring drive can give at most 1500 N/m.)" in run(*ADD_FLOOR).stdout
+
+
+def test_a_wall_let_in_by_force_says_that_passivity_bounds_it(run: Run, double: DaemonDouble) -> None:
+    forced = granted(0.0, forced=True, why=["It holds nothing.", "It was let in by force."])
+    double.answer(f"PUT {FLOOR_PATH}", wall_result(granted=forced))
+    assert "(It was let in by force.)" in run(*ADD_FLOOR, "--force").stdout
 
 
 def test_walls_of_all_devices_are_listed(run: Run, double: DaemonDouble) -> None:

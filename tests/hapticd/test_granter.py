@@ -28,14 +28,15 @@ def spring(stiffness_n_per_m: float, **more: Any) -> dict[str, Any]:
 
 def test_spring_beyond_the_spring_drive_gets_what_the_pose_gives_and_is_told() -> None:
     outcome = granted(PHANTOM, law=spring(5000, damping_n_s_per_m=3))
-    assert (outcome.stiffness_n_per_m, outcome.stiffness_fraction) == (K_C, 0.4)
+    assert (outcome.stiffness_n_per_m, outcome.stiffness_fraction) == (K_C, 1.0)
     assert outcome.damping_n_s_per_m == 3
-    assert outcome.why[0] == "The spring drive can give at most 2000 N/m at this pose: 40% of 5000 N/m."
+    assert outcome.why[0] == "The spring drive can give at most 2000 N/m at this pose, not 5000 N/m."
 
 
-def test_spring_within_the_spring_drive_is_granted_whole() -> None:
+def test_spring_within_the_spring_drive_is_granted_whole_as_a_fraction_of_what_it_gives() -> None:
     outcome = granted(PHANTOM, law=spring(800))
-    assert (outcome.stiffness_n_per_m, outcome.stiffness_fraction) == (800, 1.0)
+    assert (outcome.stiffness_n_per_m, outcome.stiffness_fraction) == (800, 0.4)
+    assert outcome.why[0] == "800 N/m is 40% of the 2000 N/m that the spring drive gives at this pose."
 
 
 def test_motion_wall_is_the_complement_of_eta_of_what_the_device_gives() -> None:

@@ -163,7 +163,7 @@ def _show(result: WallResult, subject: str, *, as_json: bool) -> None:
 
 
 def _outcome(result: WallResult) -> str:
-    applied, rendered = result["applied"], escape(granted_in_words(result["granted"]))
+    applied, rendered = result["applied"], escape(granted_in_words(result))
     if result["dry_run"]:
         return f"would be accepted{rendered}. Nothing was changed."
     if applied is None:

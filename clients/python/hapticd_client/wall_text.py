@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
-from hapticd_client.documents import Granted
+from hapticd_client.documents import WallResult
 from hapticd_client.walls import Wall
 
 UNITS = {
@@ -34,13 +35,18 @@ def friction_in_words(wall: Wall) -> str:
     return f"{friction['static']:g} / {friction['kinetic']:g}" if friction else "–"
 
 
-def granted_in_words(granted: Granted | None) -> str:
-    """What is worth telling of a grant: stiffness, and why it is less than was asked for."""
-    if granted is None or not granted["stiffness_n_per_m"]:
+def granted_in_words(result: WallResult) -> str:
+    """What is worth telling of a grant: its stiffness, and why it is not what was asked for."""
+    wall, granted = result["wall"], result["granted"]
+    if wall is None or granted is None:
         return ""
-    told = f"; {granted['stiffness_n_per_m']:.0f} N/m at this pose"
-    if granted["forced"] or (granted["stiffness_fraction"] or 1.0) < 1.0:
-        told += f" ({granted['why'][-1 if granted['forced'] else 0].rstrip('.')})"
+    stiffness_n_per_m = granted["stiffness_n_per_m"]
+    told = f"; {stiffness_n_per_m:.0f} N/m at this pose" if stiffness_n_per_m else ""
+    law = wall["law"]
+    if granted["forced"]:
+        told += f" ({granted['why'][-1]})"
+    elif law["type"] == "spring" and law["stiffness_n_per_m"] > (stiffness_n_per_m or math.inf):
+        told += f" ({granted['why'][0]})"
     return told
 
 
