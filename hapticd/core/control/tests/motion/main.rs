@@ -11,6 +11,5 @@ mod linear;
 mod mapping;
 mod models;
 mod proxy;
-mod resting;
 mod solids;
 mod walls;
