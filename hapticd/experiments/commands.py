@@ -29,9 +29,7 @@ SetOption = Annotated[
 SeedOption = Annotated[int, typer.Option("--seed", min=0, help="Equal seeds give equal results")]
 OutOption = Annotated[
     Path | None,
-    typer.Option(
-        "--out", metavar="DIR", help=f"Where files go  [default: {OUT}; with --json none are written]"
-    ),
+    typer.Option("--out", metavar="DIR", help=f"Where files go; by default {OUT}, with --json nowhere"),
 ]
 DeviceOption = Annotated[
     str | None, typer.Option("--device", metavar="ID", help="Run on this device of the running daemon")
