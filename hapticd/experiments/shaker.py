@@ -41,7 +41,7 @@ STEP_PERIODS = 0.005
 SETTLE_S = 0.9
 """Ramp of the outputs and growth of the stroke, then 0.4 s for the rest to die away."""
 
-PERIODS = 3.0
+PERIODS = 2.0
 """Periods measured at least."""
 
 WINDOW_S = 0.15
