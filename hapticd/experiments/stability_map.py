@@ -53,8 +53,8 @@ class StabilityMap:
         ),
         Parameter("passivity", False, "", "Whether passivity watches the wall", "KS §3"),
         Parameter("rate_hz", 1000.0, "Hz", "Rate of the loop", "assumed: KS and WN give none", 200.0, 5000.0),
-        Parameter("stiffness_n_per_m", (5e2, 5e5), "N/m", "hhd: least and largest K", "chosen", 1e2, 1e7),
-        Parameter("damping_n_s_per_m", (0.0, 750.0), "N·s/m", "hhd: least and largest B", "chosen", 0.0, 1e4),
+        Parameter("stiffness_n_per_m", (1e3, 5e5), "N/m", "hhd: least and largest K", "chosen", 1e2, 1e7),
+        Parameter("damping_n_s_per_m", (0.0, 700.0), "N·s/m", "hhd: least and largest B", "chosen", 0.0, 1e4),
         Parameter("k_p_share", (0.1, 2.5), "1", "phantom: K_P over k_T dR/L", "chosen", 0.01, 10.0),
         Parameter("r_hat_share", (0.8, 0.985), "1", "phantom: R̂/R", "WN give none", 0.0, 0.995),
         Parameter(
