@@ -1,4 +1,4 @@
-"""Coulomb friction with stick, restated: an elastic anchor for motors, a direction for brakes (physics §7)."""
+"""Coulomb friction with stick (physics §7): an elastic anchor for motors, a direction for brakes."""
 
 from dataclasses import dataclass, field
 
