@@ -36,6 +36,7 @@ pub fn motion(record: &mut TickRecord, pose: &JointState, rendering: &Rendering)
     record.contact_count = contact.count as u64;
     record.contact_wall = named(contact.wall);
     record.touched_walls = contact.touched.map(named);
+    record.touched_force_n = rendering.touched_force_n.into();
     record.proxy_position_m = contact.proxy.into();
     record.passivity_wall = NO_WALL;
     record.contact_depth_m = contact.depth_m;

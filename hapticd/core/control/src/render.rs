@@ -2,6 +2,7 @@
 //! hold, friction, passivity.
 
 pub mod blend;
+mod probe;
 mod rub;
 mod spring_drive;
 mod torque_drive;
@@ -33,6 +34,8 @@ use walls::{Demanded, Walls};
 pub struct Rendering {
     /// Walls touched in the newest scene.
     pub contact: Contact,
+    /// What each wall named in `contact` pushes, N.
+    pub touched_force_n: V3,
     /// Where the springs of the scenes want the tip.
     pub set_point: SetPoint,
     /// Tip stiffness of a rigid wall here and now, N/m.
@@ -96,7 +99,7 @@ impl Renderer {
 
     /// Lets `dt_s` of a cross-fade pass.
     pub fn advance(&mut self, dt_s: f64) {
-        self.walls.layers.advance(dt_s);
+        self.walls.advance(dt_s);
     }
 
     /// Renders the scenes at `state`, with residual resistances `dr_ohm`, Ω, of a spring drive,
@@ -122,8 +125,10 @@ impl Renderer {
             &mut demanded.demand,
         );
         // Passivity joins here: last, so that the energy of all that is asked for is watched.
+        let contact = self.contact(state);
         Rendering {
-            contact: self.contact(state),
+            contact,
+            touched_force_n: V3::from(contact.touched.map(|wall| self.force_of(wall))),
             set_point: demanded.set_point,
             stiffness_n_per_m: demanded.stiffness_n_per_m,
             demand: demanded.demand,
@@ -138,6 +143,16 @@ impl Renderer {
             &state.x,
             &layers.top_proxy(),
         )
+    }
+
+    /// What a wall of the newest scene pushes, N.
+    fn force_of(&self, wall: usize) -> f64 {
+        let scene_wall = self.layers().top().walls().get(wall);
+        scene_wall.map_or(0.0, |wall| {
+            let of_wall = |touch: &&Touch| touch.push.key == wall.key;
+            let touch = self.touches().iter().find(of_wall);
+            touch.map_or(0.0, |touch| touch.push.force_n)
+        })
     }
 
     fn demand_of_walls(&mut self, state: &JointState, dr_ohm: &V3) -> Demanded {
@@ -161,8 +176,8 @@ impl Renderer {
         demanded.demand.motor_only_nm = if touches.none_shared() {
             demanded.demand.torque_nm
         } else {
-            let motor_only_n = touches.motor_only_n(demanded.damper_share);
-            state.jacobian.tr_mul(&motor_only_n)
+            let walls_n = touches.motor_only_n(demanded.damper_share);
+            state.jacobian.tr_mul(&(walls_n + demanded.probe_n))
         };
     }
 }

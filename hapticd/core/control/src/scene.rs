@@ -200,6 +200,18 @@ impl Wall {
     pub const NONE: Self = Self::plane(0, [0.0, 0.0, 1.0], f64::NEG_INFINITY, 1.0);
 }
 
+/// A sine on the set-point of the tip, for the identification of a device whose tip is locked.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Probe {
+    /// Unit vector.
+    pub direction: Axes,
+    /// Amplitude, m.
+    pub amplitude_m: f64,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+}
+
 /// Everything one device renders.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
@@ -213,6 +225,8 @@ pub struct Scene {
     pub stiffness: StiffnessScope,
     /// Actuator sharing.
     pub allocation: Allocation,
+    /// Excitation of the set-point.
+    pub probe: Option<Probe>,
     /// Number of walls in use.
     pub count: usize,
     /// The walls; those past `count` are unused.
@@ -227,6 +241,7 @@ impl Default for Scene {
             mapping: Mapping::default(),
             stiffness: StiffnessScope::default(),
             allocation: Allocation::default(),
+            probe: None,
             count: 0,
             walls: [Wall::NONE; MAX_WALLS],
         }

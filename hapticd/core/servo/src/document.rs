@@ -2,7 +2,7 @@
 
 use crate::request::Request;
 use hapticd_control::fault::FaultSet;
-use hapticd_control::scene::{Allocation, Mapping, Scene, StiffnessScope, Wall, MAX_WALLS};
+use hapticd_control::scene::{Allocation, Mapping, Probe, Scene, StiffnessScope, Wall, MAX_WALLS};
 use hapticd_control::state::Event;
 use hapticd_twin::{Injection, Script};
 use serde::Deserialize;
@@ -37,6 +37,8 @@ struct FlatScene {
     mapping: Mapping,
     stiffness: StiffnessScope,
     allocation: Allocation,
+    #[serde(default)]
+    probe: Option<Probe>,
     walls: Vec<Wall>,
 }
 
@@ -48,6 +50,7 @@ impl FlatScene {
             mapping: self.mapping,
             stiffness: self.stiffness,
             allocation: self.allocation,
+            probe: self.probe,
             count: self.walls.len(),
             ..Scene::default()
         };

@@ -18,6 +18,7 @@ pub mod lease;
 pub mod mailbox;
 #[cfg(not(loom))]
 pub mod port;
+pub mod probe;
 #[cfg(not(loom))]
 pub mod region;
 pub mod request;

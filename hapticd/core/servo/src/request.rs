@@ -1,6 +1,7 @@
 //! Requests of the front: words in the mailbox. Checked again here, for the loop trusts nobody.
 
 use crate::codec::{Decoder, Encoder};
+use crate::probe::{self, PROBE_WORDS};
 use crate::wall::{self, WALL_WORDS};
 use hapticd_control::fault::FaultSet;
 use hapticd_control::scene::{Allocation, Mapping, Scene, StiffnessScope, MAX_WALLS};
@@ -9,7 +10,7 @@ use hapticd_twin::script::SCRIPT_WORDS;
 use hapticd_twin::{Injection, Script};
 
 const ENVELOPE_WORDS: usize = 3;
-const SCENE_HEAD_WORDS: usize = 6;
+const SCENE_HEAD_WORDS: usize = 6 + PROBE_WORDS;
 
 /// Words of the longest request.
 pub const REQUEST_WORDS: usize = ENVELOPE_WORDS + SCENE_HEAD_WORDS + MAX_WALLS * WALL_WORDS;
@@ -65,7 +66,14 @@ impl Request {
 
 fn scene_is_valid(scene: &Scene) -> bool {
     let fade_valid = scene.fade_s.is_finite() && scene.fade_s >= 0.0;
-    fade_valid && scene.count <= MAX_WALLS && scene.walls().iter().all(wall::is_valid)
+    let walls_valid = scene.count <= MAX_WALLS && scene.walls().iter().all(wall::is_valid);
+    fade_valid && walls_valid && keys_differ(scene) && scene.probe.iter().all(probe::is_valid)
+}
+
+/// Whether every wall has a key of its own: history follows it through edits.
+fn keys_differ(scene: &Scene) -> bool {
+    let walls = scene.walls();
+    (1..walls.len()).all(|i| walls[..i].iter().all(|other| other.key != walls[i].key))
 }
 
 impl Envelope {
@@ -158,6 +166,7 @@ fn encode_scene(scene: &Scene, encoder: &mut Encoder<'_>) {
         .word(scene.stiffness as u64)
         .word(scene.allocation as u64)
         .word(scene.walls().len() as u64);
+    probe::encode(scene.probe.as_ref(), encoder);
     for wall in scene.walls() {
         wall::encode(wall, encoder);
     }
@@ -173,6 +182,7 @@ fn decode_scene(decoder: &mut Decoder<'_>) -> Option<Scene> {
         ..Scene::default()
     };
     scene.count = usize::try_from(decoder.word()?).ok()?;
+    scene.probe = probe::decode(decoder)?;
     for wall in scene.walls.get_mut(..scene.count)? {
         *wall = wall::decode(decoder)?;
     }

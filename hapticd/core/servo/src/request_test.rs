@@ -1,7 +1,7 @@
 use super::*;
 use crate::document::parse;
 use hapticd_control::io::Axes;
-use hapticd_control::scene::{CubicForm, Law, Shape, Wall};
+use hapticd_control::scene::{CubicForm, Law, Probe, Shape, Wall};
 use proptest::prelude::*;
 
 /// One of the shapes; its numbers differ, so that none can take the place of another.
@@ -74,16 +74,27 @@ fn wall() -> impl Strategy<Value = Wall> {
         })
 }
 
+fn probe() -> impl Strategy<Value = Option<Probe>> {
+    let probe = (0.0..1.0f64, 0.0..500.0f64).prop_map(|(amplitude_m, frequency_hz)| Probe {
+        direction: [0.6, 0.0, 0.8],
+        amplitude_m,
+        frequency_hz,
+    });
+    prop::option::of(probe)
+}
+
 fn scene() -> impl Strategy<Value = Scene> {
     let choices = (0u64..2, 0u64..2, 0u64..3);
     let walls = prop::collection::vec(wall(), 0..=MAX_WALLS);
-    (any::<u64>(), 0.0..5.0f64, choices, walls).prop_map(|(revision, fade_s, choice, list)| {
+    let head = (any::<u64>(), 0.0..5.0f64, probe());
+    (head, choices, walls).prop_map(|((revision, fade_s, probe), choice, list)| {
         let mut scene = Scene {
             revision,
             fade_s,
             mapping: mapping_of(choice.0).unwrap(),
             stiffness: stiffness_of(choice.1).unwrap(),
             allocation: allocation_of(choice.2).unwrap(),
+            probe,
             count: list.len(),
             ..Scene::default()
         };
@@ -214,6 +225,39 @@ fn a_scene_with_a_nan_is_malformed_even_when_the_words_are_whole() {
             request,
         };
         assert_eq!(round_trip(&envelope), Err(4));
+    }
+}
+
+#[test]
+fn walls_that_share_a_key_are_refused() {
+    let mut scene = Scene {
+        count: 2,
+        ..Scene::default()
+    };
+    scene.walls[0] = Wall::plane(1, [0.0, 0.0, 1.0], 0.0, 0.0);
+    scene.walls[1] = scene.walls[0];
+    assert!(!Request::Scene(scene).is_valid());
+    scene.walls[1].key = 2;
+    assert!(Request::Scene(scene).is_valid());
+}
+
+#[test]
+fn probe_with_a_nan_is_refused() {
+    for (direction, amplitude_m, frequency_hz) in [
+        ([f64::NAN, 0.0, 0.0], 0.1, 1.0),
+        ([0.0, 0.0, 1.0], -0.1, 1.0),
+        ([0.0, 0.0, 1.0], 0.1, f64::NAN),
+    ] {
+        let probe = Some(Probe {
+            direction,
+            amplitude_m,
+            frequency_hz,
+        });
+        let scene = Scene {
+            probe,
+            ..Scene::default()
+        };
+        assert!(!Request::Scene(scene).is_valid());
     }
 }
 

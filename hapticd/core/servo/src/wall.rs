@@ -62,7 +62,8 @@ fn law_is_valid(law: &Law) -> bool {
     }
 }
 
-fn is_size(value: f64) -> bool {
+/// Whether a number is finite and not negative.
+pub(crate) fn is_size(value: f64) -> bool {
     value.is_finite() && value >= 0.0
 }
 
@@ -74,7 +75,8 @@ fn dot(a: &Axes, b: &Axes) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn is_unit(vector: &Axes) -> bool {
+/// Whether a vector is of unit length.
+pub(crate) fn is_unit(vector: &Axes) -> bool {
     (dot(vector, vector).sqrt() - 1.0).abs() <= UNIT_TOLERANCE
 }
 

@@ -1,7 +1,7 @@
 //! The scenes in force as one demand: each answered by itself, blended by weights that are not
 //! negative and sum to one, so that no blend is stiffer than its stiffest scene.
 
-use super::touch::{Surface, Touch, Touches};
+use super::touch::{Surface, Touch, Touches, FORCE_MIN_N};
 use crate::damping::{against_penetration, passed, Linear};
 use crate::environment::{set_point, shares, SetPoint};
 use crate::estimate::JointState;
@@ -91,7 +91,7 @@ impl Answers<'_> {
                 damper_n: self.linear_part_n(&linear, wall, facing, &springs.x_sd),
                 explicit_n: hardest * scratch.damper_m_per_s[index],
             };
-            if let Some(touch) = self.touch(index, facing, wall, touches) {
+            if let Some(touch) = self.touch(index, facing, wall, &surface, touches) {
                 touch.parts.add(weight, &facing.normal.into(), &surface);
                 if before != Some(facing.wall) {
                     touch.weigh(weight, wall);
@@ -161,12 +161,13 @@ impl Answers<'_> {
         }
     }
 
-    /// The entry of a wall that the tip is in.
+    /// The entry of a wall that the tip is in, or that its set-point is pushed into.
     fn touch<'t>(
         &self,
         index: usize,
         facing: &Facing,
         wall: &Wall,
+        surface: &Surface,
         touches: &'t mut Touches,
     ) -> Option<&'t mut Touch> {
         let depth_m = facing.depth_m(&self.state.x);
@@ -178,7 +179,8 @@ impl Answers<'_> {
             depth_m,
             force_n: 0.0,
         };
-        if depth_m > 0.0 && exists(&wall.law) {
+        let touched = depth_m > 0.0 || surface.spring_n > FORCE_MIN_N;
+        if touched && exists(&wall.law) {
             touches.entry(&Touch::of(wall, push))
         } else {
             None
@@ -186,12 +188,13 @@ impl Answers<'_> {
     }
 }
 
-/// K_ref, N/m: the stiffest of the walls that face the tip, at least a rigid one.
+/// K_ref, N/m: the stiffest wall of the scene, touched or not, at least a rigid one. Were it that
+/// of the walls touched, a wall that comes within reach would change the others' envelope.
 #[must_use]
-pub fn reference_n_per_m(scene: &Scene, facings: &Facings, rigid_n_per_m: f64) -> f64 {
-    let walls = facings.as_slice().iter().map(|facing| facing.wall);
-    let stiff = walls.map(|wall| stiffness(&scene.walls()[wall].law, rigid_n_per_m));
-    stiff.fold(rigid_n_per_m, f64::max)
+pub fn reference_n_per_m(scene: &Scene, rigid_n_per_m: f64) -> f64 {
+    let laws = scene.walls().iter().map(|wall| &wall.law);
+    laws.map(|law| stiffness(law, rigid_n_per_m))
+        .fold(rigid_n_per_m, f64::max)
 }
 
 /// Fills in how much of a penetration each surface lets pass.

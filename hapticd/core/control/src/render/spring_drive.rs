@@ -42,7 +42,11 @@ impl Spring<'_> {
         for layer in walls.layers.weighted() {
             let (weight, scene, _) = layer;
             let answers = self.answers(&walls.tip, state, k_c(scene));
-            let set_point = answers.add(layer, &mut blend, &mut walls.touches, &mut walls.scratch);
+            let excitation = walls.excitation(scene);
+            let touches = &mut walls.touches;
+            let mut set_point = answers.add(layer, &mut blend, touches, &mut walls.scratch);
+            set_point.x_sd += excitation.x_sd;
+            set_point.xd_sd += excitation.xd_sd;
             let mapped = joint_set_point(
                 scene.mapping,
                 self.kinematics,
@@ -65,6 +69,7 @@ impl Spring<'_> {
             set_point: tip,
             stiffness_n_per_m,
             demand,
+            probe_n: V3::zeros(),
             damper_share,
         }
     }

@@ -5,7 +5,7 @@ use crate::linear::V3;
 use crate::scene::{Friction, Wall, MAX_WALLS};
 
 /// Smallest force, N, whose direction means anything.
-const FORCE_MIN_N: f64 = 1e-9;
+pub const FORCE_MIN_N: f64 = 1e-9;
 
 /// Force of one wall on the tip by its sources, N.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
