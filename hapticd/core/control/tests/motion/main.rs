@@ -11,5 +11,6 @@ mod linear;
 mod mapping;
 mod models;
 mod proxy;
+mod resting;
 mod solids;
 mod walls;
