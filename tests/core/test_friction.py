@@ -47,40 +47,44 @@ def test_motors_follow_the_elastic_anchor_over_random_paths(name: str) -> None:
     rng, home = np.random.default_rng(5), device(name)["joints"]["home_rad"]
     stiffness, damping = spring_and_damper(name)
     states = set()
-    for _ in range(8):
+    for _ in range(4):
         core, normal = Friction(device_json(name), PERIOD_S), unit(rng)
         path, velocity = random_path(rng, 500)
         oracle = Anchor(stiffness, damping, Average(PERIOD_S), path[0], path[0])
         load = rng.uniform(0, 30, 10).repeat(50)
+        found, expected = [], []
         for x, xd, normal_n in zip(path, velocity, load, strict=True):
             wall = (1, normal, normal_n, STATIC, KINETIC, "motor")
             motor_n, brake_n, state = core.force([wall], q=home, x=x, xd=xd)
-            expected = oracle.force(normal, x, xd, (STATIC * normal_n, KINETIC * normal_n))
-            assert motor_n == pytest.approx(expected, abs=1e-6)
-            assert brake_n == [0.0, 0.0, 0.0]
-            assert state == (1 if oracle.sticks else 2)
+            force = oracle.force(normal, x, xd, (STATIC * normal_n, KINETIC * normal_n))
+            found.append([*motor_n, *brake_n, state])
+            expected.append([*force, 0.0, 0.0, 0.0, 1 if oracle.sticks else 2])
             states.add(state)
+        assert np.allclose(found, expected, rtol=0.0, atol=1e-6)
     assert states == {1, 2}
 
 
 def test_brakes_point_against_slip_or_hand_over_random_paths() -> None:
     rng, home = np.random.default_rng(6), device(HHD)["joints"]["home_rad"]
-    for _ in range(8):
+    for _ in range(4):
         core, oracle, normal = Friction(device_json(HHD), PERIOD_S), Heading(Average(PERIOD_S)), unit(rng)
         path, velocity = random_path(rng, 500)
         hand = rng.normal(0, 10, 3)
         normal_n = max(0.0, float(-normal @ hand))
+        found, expected = [], []
         for x, xd in zip(path, velocity, strict=True):
             wall = (1, normal, 1.0, STATIC, KINETIC, "brake")
             motor_n, brake_n, _ = core.force([wall], q=home, x=x, xd=xd, hand_force_n=hand)
-            expected = oracle.force(normal, xd, hand, (STATIC * normal_n, KINETIC * normal_n))
-            assert brake_n == pytest.approx(expected, abs=1e-9)
-            assert motor_n == [0.0, 0.0, 0.0]
+            found.append([*motor_n, *brake_n])
+            expected.append(
+                [0.0, 0.0, 0.0, *oracle.force(normal, xd, hand, (STATIC * normal_n, KINETIC * normal_n))]
+            )
+        assert np.allclose(found, expected, rtol=0.0, atol=1e-9)
 
 
 def test_measured_push_is_shared_between_the_walls_of_a_corner() -> None:
     rng, home = np.random.default_rng(7), device(HHD)["joints"]["home_rad"]
-    for _ in range(60):
+    for _ in range(30):
         normals = np.array([unit(rng), unit(rng)])
         if abs(normals[0] @ normals[1]) > 0.5:
             continue
@@ -90,7 +94,7 @@ def test_measured_push_is_shared_between_the_walls_of_a_corner() -> None:
             # One wall rubs, the other one only takes its share of the push.
             walls = [(i, normals[i], 2.0, float(i == wall), float(i == wall), "motor") for i in range(2)]
             slip = np.cross(*normals) / np.linalg.norm(np.cross(*normals))
-            for tick in range(200):
+            for tick in range(60):
                 x = (tick + 1000 * wall) * 2e-3 * slip
                 motor_n, *_ = core.force(walls, q=home, x=x, xd=2 * slip, hand_force_n=hand)
             expected = -normal_forces(normals, hand)[wall] * slip

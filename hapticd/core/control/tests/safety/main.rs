@@ -9,6 +9,7 @@ mod brakes_at_work;
 mod budget;
 mod check;
 mod checker;
+mod friction_at_work;
 mod gain;
 mod laws;
 mod machine;
