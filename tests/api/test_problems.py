@@ -147,7 +147,7 @@ async def test_misspelt_dry_run_is_refused_instead_of_carried_out(http: httpx.As
     response = await http.put(f"{WALL}?dryrun=true", json=floor())
     problem = problem_of(response, 422, "unknown-field")
     assert "'dry_run'" in problem["hint"]
-    assert problem["allowed"] == ["dry_run"]
+    assert problem["allowed"] == ["dry_run", "force"]
     assert rig.servos["phantom"].requests == []
 
 

@@ -78,7 +78,8 @@ export class Walls {
     const parts = partsOf(row);
     const change = (part) => attempt(() => patch(this.#address(wall), part));
     row.querySelector("strong").textContent = wall.id;
-    row.querySelector(".what .quiet").textContent = [placed(wall.shape), remarks(wall)].filter(Boolean).join(" · ");
+    const what = row.querySelector(".what .quiet");
+    what.textContent = what.title = [remarks(wall), placed(wall.shape)].filter(Boolean).join(" · ");
     row.classList.toggle("off", !wall.enabled);
     if (wall.law.type === "motion") this.#slider(row, wall, change);
     else parts.law.replaceChildren(...numbers(wall.law).map((number) => numberField(number, change)));
