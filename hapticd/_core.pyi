@@ -39,11 +39,13 @@ class Ack(TypedDict):
     state: str
 
 class ServoEvent(TypedDict):
-    """Something worth telling; `details` depends on `kind`, integers and strings only.
+    """Something worth telling; `details` depends on `kind`.
 
     `started` · `state` {from, to} · `faults` {raised, latched} ·
     `miss` {skipped, phase: wake|exchange|compute|rest, lateness_ns, exchange_ns, compute_ns} ·
-    `device` {link: fresh|down} · `front` {alive} · `garbled` (a broken request queue was emptied) ·
+    `device` {link: fresh|down} · `front` {alive} ·
+    `passivity` {wall: index in the scene, acting, energy_j, damping_n_s_per_m} ·
+    `garbled` (a broken request queue was emptied) ·
     `overflow` {lost} (events that were overwritten before they were read) ·
     `stopped` {reason: requested|orphaned}
     """
@@ -248,11 +250,22 @@ class Simulation:
 # ---------------------------------------------------------------------------------------------
 
 def mass_matrix(device_json: str, twin_json: str, q: Sequence[float]) -> Sequence[Sequence[float]]:
-    """M(q), kg·m² by rows, rotors included; an unused joint has a mass of its own. ValueError: no such twin."""
+    """M(q), kg·m² by rows, rotors included; an unused joint has its own mass. ValueError: no such twin."""
 
 # ---------------------------------------------------------------------------------------------
 # safety.rs: formulas of the safety layer; shapes are (3,), or (3, 3) by rows
 # ---------------------------------------------------------------------------------------------
+
+class Ledger:
+    """Energy that the motors of a device took from the hand, J."""
+
+    def __init__(self, period_s: float) -> None: ...
+    def advance(
+        self, before_nm: _Axes, after_nm: _Axes, retain: _Axes, measured: bool
+    ) -> None:
+        """One period between two joint torques; `measured` ones need not be delayed."""
+    def book(self, step_rad: _Axes) -> float:
+        """Books what the joints moved since the last frame; the device's energy after it."""
 
 class Thermal:
     """Winding temperatures of a device. ValueError: not a model, or torque drives."""
@@ -330,6 +343,15 @@ _Axes: TypeAlias = Sequence[float] | NDArray[np.float64]
 _Rows: TypeAlias = Sequence[Sequence[float]] | NDArray[np.float64]
 _WallRow: TypeAlias = tuple[_Axes, float, float]
 """Unit normal, offset in m, η."""
+
+class Proxy:
+    """The proxy of a tip among walls, given as a JSON list of flat walls. ValueError: not walls."""
+
+    def __init__(self, walls_json: str) -> None: ...
+    def edit(self, walls_json: str) -> None:
+        """Other walls; history follows their keys. ValueError: not walls."""
+    def follow(self, x: _Axes) -> tuple[list[float], list[tuple[int, list[float], float]]]:
+        """Proxy of the tip at x, m, and its facings: wall, unit normal, offset in m."""
 
 class Friction:
     """Friction of a device on the walls it touches, with its memory. ValueError: not a model.

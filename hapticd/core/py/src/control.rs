@@ -4,6 +4,7 @@ mod drive;
 mod estimator;
 mod friction;
 mod kinematics;
+mod proxy;
 
 use hapticd_control::environment::{self, SetPoint};
 use hapticd_control::facing::Facing;
@@ -23,6 +24,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<drive::SpringDrive>()?;
     module.add_class::<drive::TorqueDrive>()?;
     module.add_class::<estimator::Estimator>()?;
+    module.add_class::<proxy::Proxy>()?;
     module.add_class::<friction::Friction>()?;
     module.add_function(wrap_pyfunction!(lambda_max_sym, module)?)?;
     module.add_function(wrap_pyfunction!(find_contact, module)?)?;
