@@ -38,7 +38,7 @@ from hapticd.scene import Scene
 from hapticd.scene_editor import SceneEditor
 from hapticd.scene_result import GrantedWall, SceneResult
 from hapticd.scene_store import SceneStore
-from hapticd.servo_event import message_of
+from hapticd.servo_event import kind_of, message_of
 from hapticd.snapshot import DESIRED_STATES, Applied, DeviceSnapshot
 from hapticd.vector import AXES
 from hapticd.wall import Wall
@@ -339,8 +339,11 @@ class Device:
         if event["kind"] == "miss":
             self._misses.note(Miss.of(event))
             return
+        if event["kind"] == "passivity":
+            wall_id = self._editor.wall_id(event["details"]["wall"])
+            event = {**event, "details": {**event["details"], "wall": wall_id}}
         self._events.append(
-            f"servo.{event['kind']}",
+            kind_of(event),
             message_of(self.device_id, event),
             device_id=self.device_id,
             tick=event["tick"],

@@ -31,6 +31,24 @@ def _faults(device_id: str, details: Mapping[str, Any]) -> str:
     return f"{device_id}: faults acknowledged; {f'still latched: {left}' if left else 'none is left'}."
 
 
+def kind_of(event: ServoEvent) -> str:
+    """The kind under which the event log keeps it."""
+    if event["kind"] == "passivity":
+        return "passivity.acted" if event["details"]["acting"] else "passivity.ended"
+    return f"servo.{event['kind']}"
+
+
+def _passivity(device_id: str, details: Mapping[str, Any]) -> str:
+    wall = (
+        f"wall {details['wall']} of {device_id}" if details["wall"] is not None else f"a wall of {device_id}"
+    )
+    energy = f"it has taken {1e3 * details['energy_j']:.1f} mJ from the hand"
+    if details["acting"]:
+        return f"Passivity control acts on {wall}; {energy}."
+    damping = f"damped by up to {details['damping_n_s_per_m']:.0f} N·s/m"
+    return f"Passivity control of {wall} rests; {energy}, {damping}."
+
+
 _SENTENCES: Mapping[str, Callable[[str, Mapping[str, Any]], str]] = {
     "started": lambda device_id, _: f"The loop of {device_id} runs.",
     "state": lambda device_id, details: f"{device_id} went from {details['from']} to {details['to']}.",
@@ -41,6 +59,7 @@ _SENTENCES: Mapping[str, Callable[[str, Mapping[str, Any]], str]] = {
         if details["alive"]
         else f"{device_id} no longer heard the front."
     ),
+    "passivity": _passivity,
     "overflow": lambda device_id, details: (
         f"{details['lost']} events of {device_id} were lost: too many at once."
     ),

@@ -235,6 +235,16 @@ async def test_what_the_servo_tells_becomes_events_in_words(attached: Bench) -> 
     assert event.message == "phantom went from enabled to fault."
 
 
+async def test_passivity_control_is_told_with_the_id_of_its_wall(attached: Bench) -> None:
+    await attached.device.put_wall(make_wall("floor"))
+    details = {"wall": 0, "acting": True, "energy_j": 0.002, "damping_n_s_per_m": 90.0}
+    attached.link.told = [{"seq": 0, "kind": "passivity", "tick": 5, "t_mono_ns": 5, "details": details}]
+    attached.device.tell_servo_events()
+    event = attached.events.after()[-1]
+    assert event.kind == "passivity.acted"
+    assert event.details == {**details, "wall": "floor"}
+
+
 async def test_new_front_does_not_repeat_what_the_one_before_it_told(attached: Bench) -> None:
     details = {"from": "enabled", "to": "fault"}
     attached.link.told = [{"seq": 0, "kind": "state", "tick": 5, "t_mono_ns": 5, "details": details}]

@@ -28,6 +28,17 @@ BITS = fault_bits()
         ("overflow", {"lost": 3}, "3 events of hhd were lost: too many at once."),
         ("garbled", {}, "hhd found garbage in its request queue and dropped it."),
         ("stopped", {"reason": "orphaned"}, "The loop of hhd ended: orphaned."),
+        (
+            "passivity",
+            {"wall": "floor", "acting": True, "energy_j": 0.0042, "damping_n_s_per_m": 90.0},
+            "Passivity control acts on wall floor of hhd; it has taken 4.2 mJ from the hand.",
+        ),
+        (
+            "passivity",
+            {"wall": None, "acting": False, "energy_j": 0.0, "damping_n_s_per_m": 90.0},
+            "Passivity control of a wall of hhd rests; it has taken 0.0 mJ from the hand, "
+            "damped by up to 90 N·s/m.",
+        ),
         ("of-a-newer-servo", {}, "hhd: of-a-newer-servo."),
     ],
 )

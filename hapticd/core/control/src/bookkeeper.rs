@@ -22,6 +22,11 @@ pub struct Bookkeeper {
     before_nm: V3,
     /// Joint angles that were booked last, rad.
     booked_rad: Option<V3>,
+    /// Joint velocities since then, rad/s, not filtered.
+    qd: V3,
+    /// Periods since then.
+    periods: u32,
+    period_s: f64,
     demand_nm: V3,
 }
 
@@ -35,6 +40,9 @@ impl Bookkeeper {
             relief: Relief::default(),
             before_nm: V3::zeros(),
             booked_rad: None,
+            qd: V3::zeros(),
+            periods: 0,
+            period_s,
             demand_nm: V3::zeros(),
         }
     }
@@ -51,10 +59,14 @@ impl Bookkeeper {
             measured,
         });
         self.before_nm = after_nm;
+        self.periods += 1;
         if let Some(q) = q {
             let before_rad = self.booked_rad.replace(*q).unwrap_or(*q);
             let brake_nm = stage.brakes().map_or_else(V3::zeros, Brakes::torque_nm);
-            self.ledger.book(&(q - before_rad), &brake_nm);
+            let step_rad = q - before_rad;
+            self.ledger.book(&step_rad, &brake_nm);
+            self.qd = step_rad / (f64::from(self.periods) * self.period_s);
+            self.periods = 0;
         }
     }
 
@@ -76,7 +88,9 @@ impl Bookkeeper {
             self.ledger.ask(&asked(touched));
         }
         let retain = stage.motors().retain();
-        self.relief = self.passivity.control(&mut self.ledger, state, &retain);
+        self.relief = self
+            .passivity
+            .control(&mut self.ledger, state, &self.qd, &retain);
         demand.add_motor_only(&state.jacobian, &self.relief.force_n);
         self.demand_nm = demand.torque_nm;
     }

@@ -15,8 +15,15 @@ use crate::model::{DeviceModel, DriveModel};
 /// Quanta of the encoders, at the tip, that no estimate resolves.
 const QUANTA: f64 = 2.0;
 
+/// Share of the tip's mass that is reckoned with: its velocity is known half a tick late, which
+/// in the horizon of two ticks and lag weighs as much as a third of the mass.
+const MASS_SHARE: f64 = 0.75;
+
 /// Share of m/h, the damping past which a damper that acts h late turns the tip round.
 const DAMPING_SHARE: f64 = 0.5;
+
+/// Ticks at most in which the slew limit lets a force be withdrawn.
+const SLEW_TICKS: u32 = 32;
 
 /// Share of the force by which it must be changed to count as control.
 const NOTABLE: f64 = 1e-3;
@@ -48,6 +55,8 @@ pub struct Passivity {
     tolerance_j: f64,
     /// Speed below which the estimate is noise, m/s.
     speed_min_m_per_s: f64,
+    /// Largest change of the tip's force in one tick, N.
+    slew_n: f64,
     /// Largest damping, N·s/m.
     damping_max_n_s_per_m: f64,
 }
@@ -69,11 +78,12 @@ impl Passivity {
         Self {
             period_s,
             last_delay,
-            mass_kg: model.tip.mass_kg,
+            mass_kg: MASS_SHARE * model.tip.mass_kg,
             force_max_n: model.limits.tip_force_n,
             natural_nm_per_rad,
             tolerance_j: QUANTA * quantum_m * model.limits.tip_force_n,
             speed_min_m_per_s: QUANTA * quantum_m / period_s * passed,
+            slew_n: model.limits.tip_slew_n_per_s * period_s,
             damping_max_n_s_per_m: DAMPING_SHARE * model.tip.mass_kg / late_s,
         }
     }
@@ -90,8 +100,15 @@ impl Passivity {
         self.damping_max_n_s_per_m
     }
 
-    /// Decides for every wall that asked, and notes in the ledger what each will answer for.
-    pub fn control(&self, ledger: &mut Ledger, state: &JointState, retain: &V3) -> Relief {
+    /// Decides for every wall that asked, and notes in the ledger what each will answer for. `qd`
+    /// are the joint velocities since the last frame, rad/s: late by half a tick where the filter
+    /// is later. `retain` is the share of a torque left after one period.
+    pub fn control(&self, ledger: &mut Ledger, state: &JointState, qd: &V3, retain: &V3) -> Relief {
+        let now = Now {
+            state,
+            xd: state.jacobian * qd,
+            retain,
+        };
         let mut relief = Relief::default();
         let mut largest_n = 0.0;
         for account in ledger.accounts_mut() {
@@ -101,7 +118,7 @@ impl Passivity {
                 continue;
             }
             let normal = account.touch.force_n / asked_n;
-            let change = self.decide(account, &normal, state, retain);
+            let change = self.decide(account, &normal, &now);
             let given_n = account.touch.force_n + change.force_n * normal;
             account.course.sent_nm = state.jacobian.tr_mul(&given_n);
             relief.force_n += change.force_n * normal;
@@ -124,24 +141,18 @@ impl Passivity {
         }
     }
 
-    fn decide(
-        &self,
-        account: &mut Account,
-        normal: &V3,
-        state: &JointState,
-        retain: &V3,
-    ) -> Change {
+    fn decide(&self, account: &mut Account, normal: &V3, now: &Now<'_>) -> Change {
         let ask = Ask {
             force_n: account.touch.force_n.norm(),
             depth_m: account.touch.depth_m,
             max_n: self.force_max_n,
         };
-        let per_metre = state.jacobian_inverse * normal;
-        let outward = normal.dot(&state.xd);
+        let per_metre = now.state.jacobian_inverse * normal;
+        let outward = normal.dot(&now.state.xd).max(normal.dot(&now.xd));
         let mut limit_n = f64::INFINITY;
         let mut taken_j = f64::INFINITY;
         for delay in EXCHANGE_TICKS..=self.last_delay {
-            let flight = self.flight(&account.course, &per_metre, delay, retain);
+            let flight = self.flight(&account.course, &per_metre, delay, now.retain);
             let back_j = self.back_j(&flight, outward);
             let reserve_j = &mut account.reserve_j[delay];
             *reserve_j = reserve_j.min(ask.stored_j() + back_j);
@@ -192,6 +203,7 @@ impl Passivity {
             stiffness_n_per_m: self
                 .natural_nm_per_rad
                 .dot(&per_metre.component_mul(per_metre)),
+            slew_n: self.slew_n / (1.0 - retain.min()),
         }
     }
 
@@ -213,7 +225,7 @@ impl Passivity {
         let available_j = (reserve_j + self.tolerance_j).max(0.0);
         let v = outward.max(0.0);
         let gained = m * ((v * v + 2.0 * available_j / m).sqrt() - outward);
-        let kinetic_n = (gained - flight.impulse_n_s) / t;
+        let kinetic_n = withdrawable_n((gained - flight.impulse_n_s) / t, flight.slew_n);
         let k = flight.stiffness_n_per_m;
         let spare_j = available_j - flight.impulse_n_s * v;
         let spring_n = if k > 0.0 && spare_j > 0.0 {
@@ -223,6 +235,14 @@ impl Passivity {
         };
         kinetic_n.max(spring_n).max(0.0)
     }
+}
+
+/// The tip in one tick.
+struct Now<'a> {
+    state: &'a JointState,
+    /// Velocity since the last frame, m/s, not filtered.
+    xd: V3,
+    retain: &'a V3,
 }
 
 /// Force added along the normal, N, and the damping it amounts to.
@@ -238,6 +258,8 @@ struct Flight {
     force_n: f64,
     /// Of the motors by nature.
     stiffness_n_per_m: f64,
+    /// Step of a commanded force that the slew limit lets pass in one tick.
+    slew_n: f64,
 }
 
 impl Flight {
@@ -269,6 +291,20 @@ impl Ask {
         let held_n = self.held_n();
         held_n * self.depth_m * (1.0 - 0.5 * held_n / self.force_n)
     }
+}
+
+/// Largest force, N, that together with what the slew limit leaves of it afterwards, falling by
+/// `slew_n` a tick, is a sum of `sum_n`: (n+1) F − s n(n+1)/2 = Σ with n s ≤ F ≤ (n+1) s.
+fn withdrawable_n(sum_n: f64, slew_n: f64) -> f64 {
+    let mut force_n = sum_n;
+    for n in 1..SLEW_TICKS {
+        let n = f64::from(n);
+        if force_n <= n * slew_n {
+            break;
+        }
+        force_n = (sum_n + 0.5 * slew_n * n * (n + 1.0)) / (n + 1.0);
+    }
+    force_n
 }
 
 /// First-order lag that leaves `a` of a torque after `period_s`, s.

@@ -1,6 +1,7 @@
 //! Binding of the safety layer's formulas, for the numpy oracle.
 
 mod allocation;
+mod energy;
 mod limits;
 mod motor;
 
@@ -8,6 +9,7 @@ use pyo3::prelude::*;
 
 /// Adds this module's names to `hapticd._core`.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<energy::Ledger>()?;
     module.add_class::<motor::Thermal>()?;
     module.add_class::<motor::Budget>()?;
     module.add_class::<allocation::Brakes>()?;

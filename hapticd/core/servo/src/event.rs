@@ -42,8 +42,21 @@ pub struct Miss {
     pub compute_ns: u64,
 }
 
+/// Passivity control of one wall began or ended to act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Index of the wall in the newest scene.
+    pub wall: u64,
+    /// Whether it acts now.
+    pub acting: bool,
+    /// Energy the wall took from the hand in this contact, less what it gave back, J.
+    pub energy_j: f64,
+    /// Largest damping since it began, N·s/m.
+    pub damping_n_s_per_m: f64,
+}
+
 /// Something worth telling.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum What {
     /// The loop runs.
     Started,
@@ -73,6 +86,8 @@ pub enum What {
         /// Whether it beats.
         alive: bool,
     },
+    /// Passivity control began or ended to act.
+    Passivity(Control),
     /// The request queue held garbage and was dropped.
     Garbled,
     /// The loop ended.
@@ -80,7 +95,7 @@ pub enum What {
 }
 
 /// An event with its time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ServoEvent {
     /// Tick it belongs to.
     pub tick: u64,
@@ -103,6 +118,7 @@ impl ServoEvent {
             What::Front { alive } => (5, [alive.into(), 0, 0, 0, 0]),
             What::Garbled => (6, [0; 5]),
             What::Stopped(reason) => (7, [(reason == StopReason::Orphaned).into(), 0, 0, 0, 0]),
+            What::Passivity(control) => (8, control.words()),
         };
         let mut words = [0; EVENT_WORDS];
         Encoder::new(&mut words)
@@ -130,6 +146,7 @@ impl ServoEvent {
             6 => What::Garbled,
             7 if a == 0 => What::Stopped(StopReason::Requested),
             7 => What::Stopped(StopReason::Orphaned),
+            8 => What::Passivity(Control::from_words([a, b, c, d, e])),
             _ => return None,
         };
         Some(Self {
@@ -167,6 +184,27 @@ impl Miss {
     }
 }
 
+impl Control {
+    fn words(&self) -> [u64; 5] {
+        [
+            self.wall,
+            self.acting.into(),
+            self.energy_j.to_bits(),
+            self.damping_n_s_per_m.to_bits(),
+            0,
+        ]
+    }
+
+    fn from_words([wall, acting, energy_j, damping, _]: [u64; 5]) -> Self {
+        Self {
+            wall,
+            acting: acting != 0,
+            energy_j: f64::from_bits(energy_j),
+            damping_n_s_per_m: f64::from_bits(damping),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -200,6 +238,12 @@ mod tests {
             What::Garbled,
             What::Stopped(StopReason::Requested),
             What::Stopped(StopReason::Orphaned),
+            What::Passivity(Control {
+                wall: 3,
+                acting: true,
+                energy_j: -0.002,
+                damping_n_s_per_m: 150.0,
+            }),
         ];
         for what in all {
             let event = ServoEvent {

@@ -15,6 +15,8 @@ mod laws;
 mod machine;
 mod models;
 mod outputs;
+mod passivity;
+mod plant;
 mod plausibility;
 mod rendering;
 mod rig;

@@ -84,6 +84,7 @@ impl AckDict {
 pub enum Detail {
     Flag(bool),
     Number(u64),
+    Real(f64),
     Text(&'static str),
 }
 
@@ -122,7 +123,7 @@ impl EventDict {
 }
 
 fn details_of(what: &What) -> (&'static str, Details) {
-    use Detail::{Flag, Number, Text};
+    use Detail::{Flag, Number, Real, Text};
     let (kind, details) = match what {
         What::Started => ("started", vec![]),
         What::State { from, to } => {
@@ -139,6 +140,15 @@ fn details_of(what: &What) -> (&'static str, Details) {
             ("device", vec![("link", Text(link))])
         }
         What::Front { alive } => ("front", vec![("alive", Flag(*alive))]),
+        What::Passivity(control) => (
+            "passivity",
+            vec![
+                ("wall", Number(control.wall)),
+                ("acting", Flag(control.acting)),
+                ("energy_j", Real(control.energy_j)),
+                ("damping_n_s_per_m", Real(control.damping_n_s_per_m)),
+            ],
+        ),
         What::Garbled => ("garbled", vec![]),
         What::Stopped(reason) => ("stopped", vec![("reason", Text(stop_name(*reason)))]),
     };
