@@ -5,14 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
-import os
 import queue
 import threading
 from collections.abc import Callable
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 from hapticd import _core
+from hapticd.analysis.settling_child import settling_table_apart
 from hapticd.analysis.settling_table import Abandoned, SettlingTable, settling_table
 from hapticd.model import Model
 
@@ -21,9 +22,6 @@ FORMAT = 2
 
 MOST_DUE = 4
 """Tables waiting to be made; more are not taken up until asked for again."""
-
-LEAST_URGENT = 19
-"""nice(2) of the thread that simulates."""
 
 _log = logging.getLogger(__name__)
 
@@ -64,7 +62,9 @@ class SettlingLibrary:
     def table(self, model: Model, rate_hz: float, ticks: int) -> SettlingTable | None:
         """The table, simulated here if need be: seconds of work. None when the model cannot be simulated."""
         found = self.find(model, rate_hz, ticks)
-        return found if found is not None else self._make((model, rate_hz, ticks))
+        if found is not None:
+            return found
+        return self._keep_made((model, rate_hz, ticks), lambda: settling_table(model, rate_hz, ticks))
 
     def prepare(self, model: Model, rate_hz: float, ticks: int) -> None:
         """Has the table made in the background, once. Returns at once; does nothing unless open."""
@@ -89,7 +89,6 @@ class SettlingLibrary:
             thread.join()
 
     def _work(self) -> None:
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), LEAST_URGENT)
         while self._open:
             try:
                 entry = self._due.get(timeout=0.2)
@@ -99,12 +98,12 @@ class SettlingLibrary:
                         self._thread = None
                         return
                 continue
-            self._make(entry, lambda: self._open)
+            self._keep_made(entry, partial(settling_table_apart, *entry, lambda: self._open))
 
-    def _make(self, entry: Entry, wanted: Callable[[], bool] = lambda: True) -> SettlingTable | None:
+    def _keep_made(self, entry: Entry, make: Callable[[], SettlingTable]) -> SettlingTable | None:
         key, made = key_of(*entry), None
         try:
-            made = settling_table(*entry, wanted)
+            made = make()
         except Abandoned:
             return None
         except ValueError as error:

@@ -10,6 +10,7 @@ import pytest
 
 from hapticd.analysis import settling_library
 from hapticd.analysis.settling import SETTLED_M, home_wall, push
+from hapticd.analysis.settling_child import settling_table_apart
 from hapticd.analysis.settling_library import SettlingLibrary, key_of
 from hapticd.analysis.settling_table import Abandoned, SettlingTable, delay_ticks, settling_table
 from tests.hapticd.analysis.slow_tables import HHD, PHANTOM, RATE_HZ, files, phantom_table
@@ -104,7 +105,7 @@ def test_library_prepares_in_the_background_once_and_only_while_open(
         begun.set()
         return phantom_table()
 
-    monkeypatch.setattr(settling_library, "settling_table", table)
+    monkeypatch.setattr(settling_library, "settling_table_apart", table)
     library = SettlingLibrary(tmp_path)
     library.prepare(PHANTOM, RATE_HZ, 0)
     assert made == []
@@ -115,3 +116,17 @@ def test_library_prepares_in_the_background_once_and_only_while_open(
     library.close()
     assert made == ["settling"]
     assert library.find(PHANTOM, RATE_HZ, 0) == phantom_table()
+
+
+def test_table_of_another_process_is_the_same() -> None:
+    assert settling_table_apart(HHD, RATE_HZ, 0) == settling_table(HHD, RATE_HZ, 0)
+
+
+def test_process_of_a_table_that_is_not_wanted_is_ended() -> None:
+    with pytest.raises(Abandoned):
+        settling_table_apart(HHD, RATE_HZ, 0, lambda: False)
+
+
+def test_other_process_says_why_a_model_is_not_simulated() -> None:
+    with pytest.raises(ValueError, match="twin"):
+        settling_table_apart(replace(HHD, twin_json="null"), RATE_HZ, 0)
