@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 HAND_OVER_S = 0.015
+RELIEF_SHARE = 0.8
 
 
 @dataclass
@@ -73,6 +74,16 @@ class Logic:
             return joint.wanted_nm
         rest = float(np.sign(joint.wanted_nm)) * max(abs(joint.wanted_nm) - joint.brake_nm, 0.0)
         return rest + (before_nm - rest) * float(np.exp(-self.period_s / HAND_OVER_S))
+
+    def relief_nm(self, joint: Joint, usable: bool, motor_nm: float) -> float:
+        """What motors add the way the hand pulls against a brake that was let go."""
+        net_nm = joint.hand_nm + motor_nm
+        pull_nm = min(abs(joint.hand_nm), abs(net_nm)) if joint.hand_nm * net_nm > 0 else 0.0
+        share = RELIEF_SHARE * float(np.interp(pull_nm, [self.hand_min_nm, 3 * self.hand_min_nm], [0, 1]))
+        if abs(joint.qd) >= self.omega_off:
+            against = joint.qd * joint.hand_nm <= 0
+            share -= 1.0 if against else min(abs(joint.qd) / self.omega_on, 1.0)
+        return 0.0 if usable else float(np.sign(joint.hand_nm)) * max(share, 0.0) * joint.brake_nm
 
 
 def releasing(logic: Logic, joints: list[Joint], force_n: Vector, hand_n: Vector) -> bool:

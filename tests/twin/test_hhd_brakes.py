@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hapticd.flat_wall import rigid_plane
+from hapticd.flat_wall import flat_plane, rigid_plane
 from hapticd.twin import TwinRun
 
 QUIET = {
@@ -105,3 +105,22 @@ def test_no_brake_is_asked_for_torque_in_its_direction_of_motion() -> None:
     wrong &= records["joint_torque_demand_nm"] * velocity > 0
     assert (records["brake_torque_nm"] > 1.0).any()
     assert not wrong.any()
+
+
+LATE = {"brakes.dead_time_s": 0.058, "twin.brake.dead_time_s": 0.058}
+CUBIC = {"type": "cubic_damper", "coefficient_n_s3_per_m3": 1.28e7, "form": "implicit"}
+
+
+def test_hand_that_leaves_a_wall_that_held_it_pulls_against_little_of_the_brakes() -> None:
+    # They hold 36 N and more, and need 0.1 s to let go. Friction alone asks for 8 N.
+    run = TwinRun("hhd", overrides=LATE)
+    run.scene({"walls": [flat_plane([0, 1, 0], 0.18, CUBIC)]})
+    run.enable()
+    run.run(0.5)
+    run.hand({"type": "push", "direction": [0, -1, 0], "force_n": 54.0, "speed_m_per_s": 1.5})
+    held = run.run(1.5)[-1]
+    run.hand({"type": "follow", "target_m": [0, 0.22, 0]})
+    leaving = run.run(0.3)
+    assert held["brake_torque_nm"].max() > 9.0
+    assert leaving["hand_force_n"][:, 1].max() < 22.0
+    assert leaving["contact_count"][-1] == 0

@@ -2,6 +2,7 @@
 
 use crate::linear::V3;
 use crate::model::BrakeModel;
+use crate::relief::Decay;
 use crate::scene::Allocation;
 
 /// Time over which a motor leaves its share to a brake that sticks, s (physics §5: 10–20 ms).
@@ -156,11 +157,40 @@ impl Allocator {
                 V3::from_fn(|i, _| self.motor_share_nm(load, i))
             }
         };
+        let relief_nm = self.relief_nm(mode, load);
         Split {
-            motor_nm: load.motor_only_nm + self.motor_nm,
+            motor_nm: load.motor_only_nm + self.motor_nm + relief_nm,
             brake_nm,
-            usable: core::array::from_fn(|i| self.usable[i] || self.holding[i]),
+            usable: core::array::from_fn(|i| self.acts(i)),
         }
+    }
+
+    /// Whether the brake on `joint` may act.
+    fn acts(&self, joint: usize) -> bool {
+        self.usable[joint] || self.holding[joint]
+    }
+
+    /// Torque with which motors help a hand that pulls against brakes that have been let go, N·m.
+    fn relief_nm(&self, mode: Allocation, load: &Load) -> V3 {
+        let relief_nm = |i: usize| {
+            let decay = Decay {
+                brake_nm: load.brake_nm[i],
+                qd: load.qd[i],
+                hand_nm: load.hand_torque_nm[i],
+                other_nm: self.other_nm(load, i),
+            };
+            decay.relief_nm(&self.model)
+        };
+        V3::from_fn(|i, _| match mode {
+            Allocation::BrakeOnly => 0.0,
+            _ if self.acts(i) => 0.0,
+            _ => relief_nm(i),
+        })
+    }
+
+    /// Torque of hand and motors on `joint`, N·m.
+    fn other_nm(&self, load: &Load, joint: usize) -> f64 {
+        load.hand_torque_nm[joint] + load.motor_only_nm[joint] + self.motor_nm[joint]
     }
 
     fn decide(&mut self, mode: Allocation, load: &Load) {
@@ -175,7 +205,7 @@ impl Allocator {
                 hold_nm: load.hold_nm[i],
                 qd,
                 hand_nm,
-                other_nm: hand_nm + load.motor_only_nm[i] + self.motor_nm[i],
+                other_nm: self.other_nm(load, i),
             };
             self.usable[i] = shares && share;
             self.holding[i] = holds && may_hold(&model, self.holding[i], &holding);

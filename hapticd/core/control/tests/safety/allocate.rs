@@ -3,6 +3,7 @@
 use crate::models::brakes;
 use hapticd_control::allocate::{lone_brake_nm, releasing, usable, Allocator, Load};
 use hapticd_control::linear::{M3, V3};
+use hapticd_control::relief::SHARE;
 use hapticd_control::scene::Allocation;
 use proptest::prelude::*;
 
@@ -237,6 +238,41 @@ fn motor_takes_the_load_back_at_once_when_the_brake_lets_go() {
     assert_eq!(split.brake_nm[0], 0.0);
 }
 
+#[test]
+fn resting_hand_that_pulls_is_helped_against_a_brake_that_was_let_go() {
+    let dead_zone_nm = brakes().hand_torque_min_nm;
+    for (pulls_nm, helped) in [
+        (0.0, 0.0),
+        (dead_zone_nm, 0.0),
+        (2.0 * dead_zone_nm, 0.5),
+        (3.0 * dead_zone_nm, 1.0),
+        (-5.0, -1.0),
+    ] {
+        let load = Load {
+            hand_torque_nm: V3::new(pulls_nm, 0.0, 0.0),
+            brake_nm: V3::new(6.0, 0.0, 0.0),
+            ..Load::default()
+        };
+        let split = allocator().split(Allocation::MotorAndBrake, &load);
+        assert!((split.motor_nm[0] - helped * SHARE * 6.0).abs() < 1e-12);
+        let alone = allocator().split(Allocation::BrakeOnly, &load);
+        assert_eq!(alone.motor_nm, V3::zeros());
+    }
+}
+
+#[test]
+fn hand_that_a_brake_holds_is_not_helped() {
+    let load = Load {
+        hold_nm: V3::new(10.0, 0.0, 0.0),
+        hand_torque_nm: V3::new(-5.0, 0.0, 0.0),
+        brake_nm: V3::new(6.0, 0.0, 0.0),
+        ..Load::default()
+    };
+    let split = allocator().split(Allocation::MotorAndBrake, &load);
+    assert!(split.usable[0]);
+    assert_eq!(split.motor_nm, V3::zeros());
+}
+
 /// KS Fig. 5: the motor on axis 1 alone pushes, the brake on axis 2 alone resists.
 #[test]
 fn one_axis_by_motor_and_one_by_brake_as_in_the_paper() {
@@ -333,5 +369,53 @@ proptest! {
         let split = allocator().split(Allocation::MotorAndBrake, &load);
         let given = split.motor_nm[0] - qd.signum() * built_up;
         prop_assert!((given - wanted).abs() < 1e-9);
+    }
+
+    /// Whatever is wanted, motors add to it no more than the brake has left, and at rest nothing
+    /// against or without the hand.
+    #[test]
+    fn motors_help_the_hand_by_less_than_the_brake_has_left(
+        wanted in -20.0..20.0_f64, own in -5.0..5.0_f64, qd in -0.1..0.1_f64,
+        hand in -10.0..10.0_f64, built_up in 0.0..10.0_f64,
+    ) {
+        let load = Load {
+            motor_only_nm: V3::new(own, 0.0, 0.0),
+            hand_torque_nm: V3::new(hand, 0.0, 0.0),
+            hand_force_n: V3::new(hand, 0.0, 0.0),
+            brake_nm: V3::new(built_up, 0.0, 0.0),
+            ..moving(V3::new(wanted, 0.0, 0.0), V3::new(qd, 0.0, 0.0))
+        };
+        let split = allocator().split(Allocation::MotorAndBrake, &load);
+        let model = brakes();
+        let help = split.motor_nm[0] - own - wanted;
+        prop_assume!(!split.usable[0]);
+        prop_assert!(help.abs() <= built_up * (1.0 + 1e-12));
+        if qd.abs() < model.omega_off_rad_per_s {
+            prop_assert!(help.abs() <= SHARE * built_up + 1e-9);
+            prop_assert!(help * hand >= -1e-9);
+            prop_assert!(hand.abs() > model.hand_torque_min_nm || help.abs() < 1e-9);
+            prop_assert!((hand + own + wanted) * hand > 0.0 || help.abs() < 1e-9);
+        } else {
+            prop_assert!(help * hand >= -1e-9 || help * qd > 0.0, "against hand and motion");
+        }
+    }
+
+    /// No motion near the thresholds makes the help of a pulling hand step by more than it grows.
+    #[test]
+    fn help_passes_smoothly_from_rest_to_motion(
+        qd in 0.0..0.08_f64, pull in 0.5..10.0_f64, built_up in 0.0..10.0_f64,
+    ) {
+        let help = |qd: f64| {
+            let load = Load {
+                hand_torque_nm: V3::new(pull, 0.0, 0.0),
+                brake_nm: V3::new(built_up, 0.0, 0.0),
+                qd: V3::new(qd, 0.0, 0.0),
+                ..Load::default()
+            };
+            allocator().split(Allocation::MotorAndBrake, &load).motor_nm[0]
+        };
+        let (here, ahead) = (help(qd), help(qd + 1e-4));
+        prop_assert!(here >= SHARE * built_up - 1e-9);
+        prop_assert!(ahead >= here - 1e-9 && ahead - here < 0.01 * built_up + 1e-9);
     }
 }
