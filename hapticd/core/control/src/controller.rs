@@ -114,6 +114,10 @@ impl Controller {
         let fresh = self.estimate(reading, input.observation);
         self.settle(fresh, input.observation);
         self.renderer.advance(self.period_s);
+        if self.stage.gain() == 0.0 {
+            // No force holds the hand: it may be taken through walls, and stays where it was taken.
+            self.renderer.reset();
+        }
         let hand_force_n = self.hand_force_n(input.observation);
         if fresh {
             let dr_ohm = self.stage.motors().residual_ohm();
@@ -132,6 +136,7 @@ impl Controller {
             Reading::First => {
                 self.estimator.reset(&observation.counts);
                 self.bookkeeper.begin();
+                self.renderer.reset();
                 0.0
             }
             Reading::Fresh { dt_s } => dt_s,

@@ -97,6 +97,11 @@ impl Renderer {
         self.walls.touches.as_slice()
     }
 
+    /// Forgets on which side of the walls the tip was.
+    pub fn reset(&mut self) {
+        self.walls.layers.reset();
+    }
+
     /// Lets `dt_s` of a cross-fade pass.
     pub fn advance(&mut self, dt_s: f64) {
         self.walls.advance(dt_s);

@@ -11,6 +11,7 @@ mod check;
 mod checker;
 mod friction_at_work;
 mod gain;
+mod grip;
 mod laws;
 mod machine;
 mod models;
