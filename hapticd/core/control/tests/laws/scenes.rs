@@ -3,8 +3,10 @@
 use crate::models::{hhd, phantom, torque_drive};
 use crate::rig::scene;
 use hapticd_control::estimate::JointState;
+use hapticd_control::law::spring::damper_share;
 use hapticd_control::linear::V3;
 use hapticd_control::model::DeviceModel;
+use hapticd_control::render::touch::Touch;
 use hapticd_control::render::{Renderer, Rendering};
 use hapticd_control::scene::{CubicForm, Law, Shape, Wall};
 use proptest::prelude::*;
@@ -190,15 +192,23 @@ proptest! {
         let state = moved(&model, &home, V3::zeros(), V3::new(xd[0], xd[1], 0.0));
         let mut bench = Bench::new(&model, &walls_around(&home, &parts));
         let demand = bench.at(&state).demand;
-        let brakeless = |wall: &Wall| !wall.brake;
-        if walls_around(&home, &parts).iter().all(brakeless) {
-            prop_assert!((demand.motor_only_nm - demand.torque_nm).norm() < 1e-9);
+        let touches = bench.renderer.touches();
+        let springs_n: V3 = touches.iter().map(|touch| touch.parts.spring_n).sum();
+        let dampers_n: V3 = touches.iter().map(|touch| touch.parts.damper_n).sum();
+        let share = damper_share(&springs_n, &dampers_n);
+        let (mut all_n, mut own_n) = (V3::zeros(), V3::zeros());
+        for Touch { push, parts, brake, .. } in touches {
+            let force_n = parts.force_n(share);
+            all_n += force_n;
+            own_n += if *brake { V3::zeros() } else { force_n };
+            let pushed_n = push.force_n * push.normal;
+            let outwards = force_n.dot(&push.normal) <= 1e-6;
+            prop_assert!((pushed_n - force_n).norm() < 1e-6 || outwards && push.force_n == 0.0);
         }
-        let own = bench.renderer.touches().iter().filter(|touch| !touch.brake).count();
-        let shared = bench.renderer.touches().len() - own;
-        if own == 0 && shared > 0 {
-            prop_assert_eq!(demand.motor_only_nm, V3::zeros());
-        }
+        let scale = 1e-6 * demand.force_n.norm().max(1.0);
+        prop_assert!((all_n - demand.force_n).norm() < scale, "{all_n} for {}", demand.force_n);
+        let own_nm = state.jacobian.tr_mul(&own_n);
+        prop_assert!((own_nm - demand.motor_only_nm).norm() < scale);
     }
 }
 
