@@ -24,12 +24,14 @@ class WallContact:
     source = "KS Figs. 8, 9, Table 1, §4"
     models = (MODEL,)
     # What fits KS's figures: 0.75 kg at the tip, brakes that begin late (physics §9, set R1), and the force
-    # that the motors have at this pose, which is more than the daemon's own limit.
+    # that the motors have at this pose, which is more than the daemon's own limit. No delay is unknown here.
     overrides: Mapping[str, Any] = {
         "brakes.dead_time_s": 0.058,
         "twin.brake.dead_time_s": 0.058,
         "twin.linkage.gear_ratio": 8.0,
         "limits.tip_force_n": 115.0,
+        "tip.mass_kg": 0.7,
+        "limits.delay_spare_ticks": 0,
     }
     uncertain = (
         "brakes.torque_max_nm",

@@ -25,13 +25,14 @@ def claims(strikes: Strikes) -> tuple[Claim, ...]:
         _damper_law(),
         _forces(strikes),
         _weak_active(strikes["weak", "active"]),
-        _weak_passivity(strikes["weak", "passivity"]),
+        _weak_passivity(strikes["weak", "popc"]),
         _weak_hybrid(strikes["weak", "hybrid"]),
         _sharp_drop(strikes["weak", "hybrid"]),
         _strong_active(strikes["strong", "active"]),
-        _strong_passivity(strikes["strong", "passivity"]),
+        _strong_passivity(strikes["strong", "popc"]),
         _strong_hybrid(strikes["strong", "hybrid"]),
         _table(strikes),
+        _own(strikes),
         _feel(),
     )
 
@@ -71,7 +72,7 @@ def _weak_active(strike: Strike) -> Claim:
 
 def _weak_passivity(strike: Strike) -> Claim:
     return judged(
-        "Weak, passivity control: one bounce, then a small error",
+        "Weak, PO/PC: one bounce, then a small error",
         "KS Fig. 8(b)",
         "one bounce, settled, error small",
         _told(strike),
@@ -114,7 +115,7 @@ def _strong_active(strike: Strike) -> Claim:
 
 def _strong_passivity(strike: Strike) -> Claim:
     return judged(
-        "Strong, passivity control: one big bounce, then stable with a small error",
+        "Strong, PO/PC: one big bounce, then stable with a small error",
         "KS Fig. 9(b)",
         "one bounce, settled, error small",
         _told(strike),
@@ -133,7 +134,7 @@ def _strong_hybrid(strike: Strike) -> Claim:
 
 
 def _table(strikes: Strikes) -> Claim:
-    errors = {wall: _error(strikes["weak", wall]) for wall in ("active", "passivity", "hybrid")}
+    errors = {wall: _error(strikes["weak", wall]) for wall in ("active", "popc", "hybrid")}
     told = ", ".join(f"{wall} {1e3 * error:.2f} mm" for wall, error in errors.items())
     calm = not strikes["strong", "active"].settled and strikes["strong", "hybrid"].settled
     return judged(
@@ -141,7 +142,24 @@ def _table(strikes: Strikes) -> Claim:
         "KS Table 1",
         "hybrid error more than twice the others' in weak contact; strong active never rests, hybrid does",
         told,
-        holds=calm and errors["hybrid"] > 2.0 * max(errors["active"], errors["passivity"]),
+        holds=calm and errors["hybrid"] > 2.0 * max(errors["active"], errors["popc"]),
+    )
+
+
+def _own(strikes: Strikes) -> Claim:
+    own, bare = (
+        {strength: strikes[strength, wall] for strength in ("weak", "strong")}
+        for wall in ("passivity", "active")
+    )
+    returned = {strength: strike.returned_energy_j for strength, strike in own.items()}
+    before = max(strike.returned_energy_j for strike in bare.values())
+    return judged(
+        "The daemon's own passivity control lets a wall return no more than it took, and it comes to rest",
+        "docs/passivity.md, beyond KS",
+        "at rest in both contacts, at most 5 mJ returned",
+        f"weak {_told(own['weak'])}; strong {_told(own['strong'])}; returned "
+        f"{1e3 * max(returned.values()):.1f} mJ against {1e3 * before:.0f} mJ without",
+        holds=all(strike.settled for strike in own.values()) and max(returned.values()) < 5e-3,
     )
 
 

@@ -15,14 +15,15 @@ if TYPE_CHECKING:
 SPAN_S = {"weak": 0.5, "strong": 0.8}
 LABELS = {
     "active": "active: spring",
-    "passivity": "spring, passivity control",
+    "popc": "PO/PC as published",
+    "passivity": "passivity control of hapticd",
     "hybrid": "hybrid: damper, brake",
 }
 
 
 def draw(figure: Figure, strikes: Mapping[tuple[str, str], Strike]) -> None:
     """Weak contact on the left of each pair, strong on the right; one row per wall."""
-    figure.set_size_inches(12.5, 8.0)
+    figure.set_size_inches(12.5, 10.0)
     grid = figure.subplots(len(WALLS), 2 * len(STRENGTHS))
     for row, wall in enumerate(WALLS):
         for pair, strength in enumerate(STRENGTHS):

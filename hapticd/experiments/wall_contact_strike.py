@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from hapticd.experiments.run import Run
 from hapticd.experiments.wall_contact_approach import ready
+from hapticd.experiments.wall_contact_popc import PopcBench
 from hapticd.flat_wall import flat_plane
+from hapticd.twin import TwinRun
 
 Vector = NDArray[np.float64]
 
@@ -45,12 +47,17 @@ def _damper(run: Run) -> dict[str, Any]:
     }
 
 
-WALLS: Mapping[str, tuple[Callable[[Run], dict[str, Any]], dict[str, Any]]] = {
+POPC = "popc"
+
+RENDERED: Mapping[str, tuple[Callable[[Run], dict[str, Any]], dict[str, Any]]] = {
     "active": (_spring, {"passivity": False, "brake": False}),
     "passivity": (_spring, {"passivity": True, "brake": False}),
     "hybrid": (_damper, {"passivity": False, "brake": True}),
 }
-"""Law and switches of each wall (KS Table 1)."""
+"""Law and switches of each wall that hapticd renders (KS Table 1)."""
+
+WALLS = ("active", POPC, "passivity", "hybrid")
+"""Every wall that is struck; ``popc`` is passivity control as published."""
 
 
 @dataclass(frozen=True)
@@ -150,33 +157,25 @@ class Strike:
             "force_n": self.force_n,
             "speed_m_per_s": self.speed_m_per_s,
             "motor_force_n": -np.asarray(self.records["tip_force_command_n"][:, 1]),
-            "brake_nm": np.asarray(self.records["brake_torque_estimate_nm"].max(axis=1)),
         }
 
 
 def struck(run: Run, wall: str, script: Mapping[str, Any]) -> Strike:
     """Drives the twin's hand into the wall, watches, and withdraws it. ``ValueError``: it never arrived."""
-    law, switches = WALLS[wall]
     wall_y_m, rate_hz, watch_s = (run.number(name) for name in ("wall_y_m", "rate_hz", "watch_s"))
-    twin = ready(run, [flat_plane([0.0, -1.0, 0.0], -wall_y_m, law(run), **switches)])
-    twin.hand(script)
-    approach = twin.run(2.0 + watch_s)
+    bench = PopcBench(run) if wall == POPC else _among(run, wall)
+    bench.hand(script)
+    approach = bench.run(2.0 + watch_s)
     inside = approach["tip_position_m"][:, 1] > wall_y_m
     if not inside.any():
         raise ValueError("The hand never reached the wall: push harder or start nearer.")
     contact = int(np.argmax(inside))
-    begin = max(0, contact - round(0.05 * rate_hz))
-    end = contact + round(watch_s * rate_hz)
-    records = _with_withdrawal(run, twin.run, approach[begin:end], twin.hand)
+    begin, end = max(0, contact - round(0.05 * rate_hz)), contact + round(watch_s * rate_hz)
+    bench.hand({"type": "follow", "target_m": [0.0, run.number("start_y_m"), 0.0]})
+    records = np.concatenate([approach[begin:end], bench.run(WITHDRAW_S)])
     return Strike(records, contact - begin, wall_y_m, rate_hz, watch_s)
 
 
-def _with_withdrawal(
-    run: Run,
-    watch: Callable[[float], NDArray[Any]],
-    contact: NDArray[Any],
-    hand: Callable[[Mapping[str, Any]], None],
-) -> NDArray[Any]:
-    """``contact`` and, behind it, the hand's way back."""
-    hand({"type": "follow", "target_m": [0.0, run.number("start_y_m"), 0.0]})
-    return np.concatenate([contact, watch(WITHDRAW_S)])
+def _among(run: Run, wall: str) -> TwinRun:
+    law, switches = RENDERED[wall]
+    return ready(run, [flat_plane([0.0, -1.0, 0.0], -run.number("wall_y_m"), law(run), **switches)])
