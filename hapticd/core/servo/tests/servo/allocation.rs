@@ -5,12 +5,19 @@ use std::sync::atomic::Ordering;
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
 
+fn wall(key: usize) -> String {
+    format!(
+        r#"{{"key":{key},"shape":{{"type":"plane","normal":[0,0,1],"offset_m":-0.01}},"law":{{"type":"motion","eta":0.2}}}}"#
+    )
+}
+
 #[test]
 fn nothing_on_the_way_of_a_tick_or_a_request_allocates() {
+    let walls: Vec<String> = (0..16).map(wall).collect();
     let scene = format!(
         r#"{{"type":"scene","scene":{{"revision":1,"fade_s":0.05,"mapping":"transpose","stiffness":"pose",
             "allocation":"motor_only","walls":[{}]}}}}"#,
-        [r#"{"key":1,"shape":{"type":"plane","normal":[0,0,1],"offset_m":-0.01},"law":{"type":"motion","eta":0.2}}"#; 16].join(",")
+        walls.join(",")
     );
     let rig = Rig::new();
     let report = rig.run_guarded(
