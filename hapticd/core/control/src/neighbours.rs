@@ -15,6 +15,7 @@ const SKIN_M: f64 = 0.01;
 /// and where that is near the wall itself: linear in the walls, but rare and cheap.
 #[derive(Clone, Debug)]
 pub struct Neighbours {
+    solids: [Solid; MAX_WALLS],
     balls: [Ball; MAX_WALLS],
     center_m: V3,
     reach_m: f64,
@@ -29,6 +30,7 @@ impl Default for Neighbours {
             radius_m: 0.0,
         };
         Self {
+            solids: [Solid::default(); MAX_WALLS],
             balls: [nowhere; MAX_WALLS],
             center_m: V3::zeros(),
             reach_m: f64::NEG_INFINITY,
@@ -41,8 +43,10 @@ impl Default for Neighbours {
 impl Neighbours {
     /// Takes up other walls.
     pub fn adopt(&mut self, walls: &[Wall]) {
-        for (ball, wall) in self.balls.iter_mut().zip(walls) {
-            *ball = Solid::from(&wall.shape).ball();
+        let slots = self.solids.iter_mut().zip(&mut self.balls);
+        for ((solid, ball), wall) in slots.zip(walls) {
+            *solid = Solid::from(&wall.shape);
+            *ball = solid.ball();
         }
         self.reach_m = f64::NEG_INFINITY;
     }
@@ -58,25 +62,25 @@ impl Neighbours {
         for (i, (wall, ball)) in walls.iter().zip(&self.balls).enumerate() {
             let reach_m = ball.radius_m + self.reach_m;
             let near = (x - ball.center_m).norm_squared() <= reach_m * reach_m;
-            if near && exists(&wall.law) && surface_m(wall, x) <= self.reach_m {
+            let surface_m = |solid| surface_m(solid, is_hollow(&wall.shape), x);
+            if near && exists(&wall.law) && surface_m(&self.solids[i]) <= self.reach_m {
                 self.walls[self.count] = i as u16;
                 self.count += 1;
             }
         }
     }
 
-    /// Indices of the walls, in their order.
-    pub fn walls(&self) -> impl Iterator<Item = usize> + '_ {
-        self.walls[..self.count]
-            .iter()
-            .map(|wall| usize::from(*wall))
+    /// The walls in their order: index and shape.
+    pub fn walls(&self) -> impl Iterator<Item = (usize, &Solid)> {
+        let indices = self.walls[..self.count].iter();
+        indices.map(|wall| (usize::from(*wall), &self.solids[usize::from(*wall)]))
     }
 }
 
 /// Distance of `x`, m, from what of a wall can be met from there: its surface, or the solid.
-fn surface_m(wall: &Wall, x: &V3) -> f64 {
-    let distance_m = Solid::from(&wall.shape).distance_m(x);
-    if is_hollow(&wall.shape) {
+fn surface_m(solid: &Solid, hollow: bool, x: &V3) -> f64 {
+    let distance_m = solid.distance_m(x);
+    if hollow {
         distance_m.abs()
     } else {
         distance_m

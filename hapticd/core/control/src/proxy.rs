@@ -113,15 +113,15 @@ impl Proxy {
             let next = match around.worst(&p) {
                 Some((wall, short_m)) if short_m > FREE_M => {
                     pushes += 1;
+                    if pushes > PUSHES || around.is_shut(x) {
+                        // No free space where walls have closed around it: it starts anew at the tip.
+                        p = *x;
+                        break;
+                    }
                     p + short_m * wall.normal
                 }
-                _ => self.step(walls, &p, x, around),
+                _ => self.step(&p, x, around),
             };
-            if pushes > PUSHES {
-                // No free space where walls have closed around it: it starts anew at the tip.
-                p = *x;
-                break;
-            }
             let moved_m = (next - p).norm();
             p = next;
             if moved_m <= REST_M || p == *x {
@@ -133,27 +133,26 @@ impl Proxy {
     }
 
     /// One step towards `x` through the free space `around`.
-    fn step(&self, walls: &[Wall], p: &V3, x: &V3, around: &mut Supports) -> V3 {
+    fn step(&self, p: &V3, x: &V3, around: &mut Supports) -> V3 {
         let mut q = around.nearest(x);
         for _ in 0..CUTS {
-            if !self.cut(walls, &q, around) {
+            if !self.cut(&q, around) {
                 return p + around.reach(p, &q) * (q - p);
             }
             q = around.nearest(x);
         }
         (0..HALVINGS)
             .map(|halving| p + 0.5_f64.powi(halving) * (q - p))
-            .find(|shorter| !self.cut(walls, shorter, around))
+            .find(|shorter| !self.cut(shorter, around))
             .unwrap_or(*p)
     }
 
     /// Fences the round cavities in where `q` is beyond their surface.
-    fn cut(&self, walls: &[Wall], q: &V3, around: &mut Supports) -> bool {
+    fn cut(&self, q: &V3, around: &mut Supports) -> bool {
         let mut beyond = false;
-        for wall in self.near.walls().filter(|wall| self.is_cavity(*wall)) {
-            let solid = Solid::from(&walls[wall].shape);
-            if solid.is_round() && solid.distance_m(q) > -FREE_M {
-                solid.enclose(q, |support| around.push(NOBODY, support));
+        for (wall, solid) in self.near.walls() {
+            if self.is_cavity(wall) && solid.is_round() && solid.distance_m(q) > -FREE_M {
+                solid.enclose(q, |support| around.push(NOBODY, support, true));
                 beyond = true;
             }
         }
@@ -171,20 +170,20 @@ impl Proxy {
         self.near.cover(walls, x, span_m);
         around.clear();
         let reach_m = 2.0 * span_m + FREE_M;
-        for wall in self.near.walls() {
-            let solid = Solid::from(&walls[wall].shape);
-            let mut keep = |owner: usize, support: Support| {
+        for (wall, solid) in self.near.walls() {
+            let mut keep = |owner: usize, support: Support, everywhere: bool| {
                 if support.gap_m(p) <= reach_m {
-                    around.push(owner, support);
+                    around.push(owner, support, everywhere);
                 }
             };
             if self.is_cavity(wall) {
-                solid.enclose(p, |support| keep(wall, support));
+                solid.enclose(p, |support| keep(wall, support, true));
                 if solid.is_round() {
-                    solid.enclose(x, |support| keep(NOBODY, support));
+                    solid.enclose(x, |support| keep(NOBODY, support, true));
                 }
-            } else {
-                keep(wall, solid.support(p));
+            } else if !solid.is_beyond(p, reach_m) {
+                let everywhere = matches!(solid, Solid::Plane(_));
+                keep(wall, solid.support(p), everywhere);
             }
         }
     }

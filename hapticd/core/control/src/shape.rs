@@ -61,6 +61,16 @@ pub enum Solid {
     Capsule(Capsule),
 }
 
+impl Default for Solid {
+    /// A half-space that ends at the origin.
+    fn default() -> Self {
+        Self::Plane(Plane {
+            normal: V3::x(),
+            offset_m: 0.0,
+        })
+    }
+}
+
 impl From<&Shape> for Solid {
     fn from(shape: &Shape) -> Self {
         match *shape {
@@ -154,6 +164,16 @@ impl Solid {
     #[must_use]
     pub fn is_round(&self) -> bool {
         matches!(self, Self::Sphere(_) | Self::Capsule(_))
+    }
+
+    /// Whether `p`, m, is farther than `reach_m` from the solid, where that is cheap to tell.
+    #[must_use]
+    pub fn is_beyond(&self, p: &V3, reach_m: f64) -> bool {
+        match self {
+            Self::Sphere(sphere) => sphere.is_beyond(p, reach_m),
+            Self::Box(cuboid) => cuboid.is_beyond(p, reach_m),
+            Self::Plane(_) | Self::Capsule(_) => false,
+        }
     }
 
     /// Distance of `p`, m, from the surface; negative inside.

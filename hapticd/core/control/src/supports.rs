@@ -29,6 +29,7 @@ pub struct Supports {
     count: usize,
     planes: [Support; MAX_SUPPORTS],
     walls: [usize; MAX_SUPPORTS],
+    everywhere: [bool; MAX_SUPPORTS],
 }
 
 impl Default for Supports {
@@ -37,6 +38,7 @@ impl Default for Supports {
             count: 0,
             planes: [Support::default(); MAX_SUPPORTS],
             walls: [0; MAX_SUPPORTS],
+            everywhere: [false; MAX_SUPPORTS],
         }
     }
 }
@@ -47,11 +49,13 @@ impl Supports {
         self.count = 0;
     }
 
-    /// Adds one of wall `wall`. Those past the capacity are left out.
-    pub fn push(&mut self, wall: usize, support: Support) {
+    /// Adds one of wall `wall`; `everywhere` where it contains all space that the wall leaves
+    /// free, as of a plane or a cavity. Those past the capacity are left out.
+    pub fn push(&mut self, wall: usize, support: Support, everywhere: bool) {
         if self.count < MAX_SUPPORTS {
             self.planes[self.count] = support;
             self.walls[self.count] = wall;
+            self.everywhere[self.count] = everywhere;
             self.count += 1;
         }
     }
@@ -68,30 +72,26 @@ impl Supports {
     /// The half-space that `p`, m, is farthest from being within, and by how much, m.
     #[must_use]
     pub fn worst(&self, p: &V3) -> Option<(&Support, f64)> {
-        let short = |plane: &Support| CLEARANCE_M - plane.gap_m(p);
-        let mut worst = None;
-        let mut worst_m = MISS_M;
-        for plane in self.planes() {
-            let short_m = short(plane);
-            if short_m > worst_m {
-                (worst, worst_m) = (Some(plane), short_m);
-            }
-        }
-        worst.map(|plane| (plane, worst_m))
+        worst(self.planes().iter(), p)
     }
 
-    /// The point within all half-spaces closest to `x`, m, with its clearance. The dual simplex
-    /// method: of the half-spaces not met the worst becomes active, and those it makes idle leave.
+    /// The point within all half-spaces closest to `x`, m, with its clearance.
     #[must_use]
     pub fn nearest(&self, x: &V3) -> V3 {
-        let mut vertex = Vertex::free(x);
-        for _ in 0..PIVOTS {
-            let Some((plane, _)) = self.worst(&vertex.point) else {
-                break;
-            };
-            vertex = vertex.pivot(x, plane);
+        match nearest(x, || self.planes().iter()) {
+            Ok(point) | Err(point) => point,
         }
-        vertex.point
+    }
+
+    /// Whether the walls leave no free space at all, searched from `x`, m: known without a try at
+    /// the ways out of them, which all would fail.
+    #[must_use]
+    pub fn is_shut(&self, x: &V3) -> bool {
+        let everywhere = || {
+            let all = self.planes().iter().zip(&self.everywhere);
+            all.filter_map(|(plane, everywhere)| everywhere.then_some(plane))
+        };
+        nearest(x, everywhere).is_err()
     }
 
     /// The share of the way from `p` to `q`, m, that stays free. Half-spaces that `p` is not in
@@ -107,6 +107,33 @@ impl Supports {
         }
         share
     }
+}
+
+/// The half-space that `p`, m, is farthest from being within, and by how much, m.
+fn worst<'a>(planes: impl Iterator<Item = &'a Support>, p: &V3) -> Option<(&'a Support, f64)> {
+    let mut worst = None;
+    let mut worst_m = MISS_M;
+    for plane in planes {
+        let short_m = short_m(plane, p);
+        if short_m > worst_m {
+            (worst, worst_m) = (Some(plane), short_m);
+        }
+    }
+    worst.map(|plane| (plane, worst_m))
+}
+
+/// The point within all half-spaces closest to `x`, m; as an error how far it came where four or
+/// fewer of them contradict each other. The dual simplex method: of the half-spaces not met the
+/// worst becomes active, and those it makes idle leave.
+fn nearest<'a, I: Iterator<Item = &'a Support>>(x: &V3, planes: impl Fn() -> I) -> Result<V3, V3> {
+    let mut vertex = Vertex::free(x);
+    for _ in 0..PIVOTS {
+        let Some((plane, _)) = worst(planes(), &vertex.point) else {
+            break;
+        };
+        vertex = vertex.pivot(x, plane).ok_or(vertex.point)?;
+    }
+    Ok(vertex.point)
 }
 
 /// The closest point to x of at most three half-spaces, all of them active.
@@ -126,18 +153,22 @@ impl Vertex {
     }
 
     /// The vertex of these half-spaces and one more that this vertex is not in: on its plane, then
-    /// on a line of it, then in a corner, as the others ask for (Seidel 1991).
-    fn pivot(&self, x: &V3, plane: &Support) -> Self {
+    /// on a line of it, then in a corner, as the others ask for (Seidel 1991). `None` where they
+    /// contradict each other.
+    fn pivot(&self, x: &V3, plane: &Support) -> Option<Self> {
         let mut next = Self::of(x + short_m(plane, x) * plane.normal, &[*plane]);
         let others = &self.active[..self.count];
         for (i, other) in others.iter().enumerate() {
-            if short_m(other, &next.point) > MISS_M {
-                if let Some(edge) = Edge::of(x, plane, other) {
-                    next = edge.nearest(&others[..i]);
+            let missed_m = short_m(other, &next.point);
+            if missed_m > MISS_M {
+                match Edge::of(x, plane, other) {
+                    Some(edge) => next = edge.nearest(&others[..i])?,
+                    None if missed_m > FREE_M => return None,
+                    None => {}
                 }
             }
         }
-        next
+        Some(next)
     }
 
     fn of(point: V3, planes: &[Support]) -> Self {
@@ -178,16 +209,20 @@ impl Edge {
         })
     }
 
-    /// Its point closest to x within the `others`; halfway where they contradict.
-    fn nearest(&self, others: &[Support]) -> Vertex {
+    /// Its point closest to x within the `others`; `None` where they contradict.
+    fn nearest(&self, others: &[Support]) -> Option<Vertex> {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut lowest, mut highest) = (None, None);
         for other in others {
             let rate = other.normal.dot(&self.along);
-            let at = short_m(other, &self.point) / rate;
+            let missed_m = short_m(other, &self.point);
             if rate * rate < PARALLEL {
+                if missed_m > FREE_M {
+                    return None;
+                }
                 continue;
             }
+            let at = missed_m / rate;
             if rate > 0.0 && at > low {
                 (low, lowest) = (at, Some(other));
             } else if rate < 0.0 && at < high {
@@ -203,8 +238,10 @@ impl Edge {
         let point = self.point + at * self.along;
         let [a, b] = self.planes;
         match corner {
-            Some(c) => Vertex::of(point, &[a, b, *c]),
-            None => Vertex::of(point, &[a, b]),
+            // Between walls that touch each other there is room up to rounding.
+            Some(c) if short_m(c, &point) > FREE_M => None,
+            Some(c) => Some(Vertex::of(point, &[a, b, *c])),
+            None => Some(Vertex::of(point, &[a, b])),
         }
     }
 }

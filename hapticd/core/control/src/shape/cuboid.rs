@@ -21,13 +21,24 @@ impl Cuboid {
     #[must_use]
     pub fn outward(&self, p: &V3) -> V3 {
         let local = self.local(p);
-        let beyond = local.zip_map(&self.half_m, |l, half| l - l.clamp(-half, half));
+        let beyond = self.beyond(&local);
         let distance_m = beyond.norm();
         if distance_m > ON_SURFACE_M {
             self.to_base(&(beyond / distance_m))
         } else {
             self.nearest_face(&local)
         }
+    }
+
+    /// Whether `p`, m, is farther than `reach_m` from it.
+    #[must_use]
+    pub fn is_beyond(&self, p: &V3, reach_m: f64) -> bool {
+        self.beyond(&self.local(p)).norm_squared() > reach_m * reach_m
+    }
+
+    /// The way to a point from the closest one of the solid, along the edges, m.
+    fn beyond(&self, local: &V3) -> V3 {
+        local.zip_map(&self.half_m, |l, half| l - l.max(-half).min(half))
     }
 
     fn nearest_face(&self, local: &V3) -> V3 {
