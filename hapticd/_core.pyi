@@ -260,9 +260,7 @@ class Ledger:
     """Energy that the motors of a device took from the hand, J."""
 
     def __init__(self, period_s: float) -> None: ...
-    def advance(
-        self, before_nm: _Axes, after_nm: _Axes, retain: _Axes, measured: bool
-    ) -> None:
+    def advance(self, before_nm: _Axes, after_nm: _Axes, retain: _Axes, measured: bool) -> None:
         """One period between two joint torques; `measured` ones need not be delayed."""
     def book(self, step_rad: _Axes) -> float:
         """Books what the joints moved since the last frame; the device's energy after it."""
@@ -372,6 +370,17 @@ class Friction:
         """Force for the motors and for the brakes, N; 0 no friction, 1 sticks, 2 slips."""
     def energy_j(self) -> float:
         """Energy in the springs of the anchors, J."""
+
+class Law:
+    """One wall's law on a device ticked every ``period_s``. ValueError: not a model, not a law."""
+
+    def __init__(self, device_json: str, law_json: str, period_s: float) -> None: ...
+    def spring(self, rigid_n_per_m: float, rigid_n_s_per_m: float) -> tuple[float, float]:
+        """K and B of the wall's spring, N/m and N·s/m, where a rigid wall has the given ones."""
+    def eta(self, rigid_n_per_m: float, reference_n_per_m: float) -> float:
+        """Share of the penetration that the wall lets pass, where the stiffest wall has the reference."""
+    def damper_force(self, closing_m_per_s: float) -> float:
+        """Force of a wall without spring, N, on a tip that goes in."""
 
 class Kinematics:
     """Geometry of one device model. ValueError: not a model."""

@@ -3,12 +3,14 @@
 pub mod cubic;
 pub mod damper;
 pub mod motion;
+pub mod sampled_loop;
 pub mod spring;
 
 use crate::linear::V3;
 use crate::model::{DeviceModel, DriveModel, SpringDriveModel};
 use crate::scene::Law;
 use crate::thermal::tuned_residual_ohm;
+use sampled_loop::SampledLoop;
 
 /// Largest η of a wall that has no spring, or none here: it is touched, and pulls by the last bit
 /// of a number. Only a motion law's η = 1 makes a wall that does not exist.
@@ -34,11 +36,9 @@ pub struct Push {
 /// The tip and the loop behind it, as the dampers see them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
-    /// m: apparent mass, kg.
-    pub mass_kg: f64,
-    /// `T_e`, s: from a motion of the tip to the force against it. One period, the drive's lag and
-    /// the velocity filter's 1/λ.
-    pub delay_s: f64,
+    /// m/T_e, N·s/m: the hardest damper that period, drive and velocity filter can damp the tip's
+    /// mass with.
+    pub damping_max_n_s_per_m: f64,
     /// Largest force, N.
     pub force_max_n: f64,
 }
@@ -51,9 +51,13 @@ impl Tip {
             DriveModel::Spring(drive) => electrical_lag_s(drive),
             DriveModel::Torque(drive) => drive.lag_s,
         };
+        let behind = SampledLoop {
+            period_s,
+            lag_s,
+            lambda_rad_per_s: model.estimator.lambda_rad_per_s,
+        };
         Self {
-            mass_kg: model.tip.mass_kg,
-            delay_s: period_s + lag_s + model.estimator.lambda_rad_per_s.recip(),
+            damping_max_n_s_per_m: model.tip.mass_kg * behind.damping_max_per_s(),
             force_max_n: model.limits.tip_force_n,
         }
     }

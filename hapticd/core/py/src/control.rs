@@ -4,6 +4,7 @@ mod drive;
 mod estimator;
 mod friction;
 mod kinematics;
+mod law;
 mod proxy;
 
 use hapticd_control::environment::{self, SetPoint};
@@ -26,6 +27,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<estimator::Estimator>()?;
     module.add_class::<proxy::Proxy>()?;
     module.add_class::<friction::Friction>()?;
+    module.add_class::<law::Law>()?;
     module.add_function(wrap_pyfunction!(lambda_max_sym, module)?)?;
     module.add_function(wrap_pyfunction!(find_contact, module)?)?;
     module.add_function(wrap_pyfunction!(set_point, module)?)?;

@@ -13,7 +13,7 @@ pub fn force(c: f64, form: CubicForm, closing_m_per_s: f64, tip: &Tip) -> f64 {
     let v = closing_m_per_s.max(0.0);
     let unbounded_n = match form {
         CubicForm::Explicit => explicit(c, v),
-        CubicForm::Implicit => implicit(c, v, tip.mass_kg / tip.delay_s),
+        CubicForm::Implicit => implicit(c, v, tip.damping_max_n_s_per_m),
     };
     unbounded_n.min(tip.force_max_n)
 }

@@ -2,6 +2,7 @@
 
 use crate::models::{hhd, phantom};
 use hapticd_control::law::cubic::{explicit, implicit};
+use hapticd_control::law::sampled_loop::SampledLoop;
 use hapticd_control::law::spring::damper_share;
 use hapticd_control::law::{damper_force, eta, Tip};
 use hapticd_control::linear::V3;
@@ -86,9 +87,56 @@ fn printed_damper_gives_the_printed_force() {
     assert!((explicit(PRINTED, 0.04) - 102.4).abs() < 1e-9);
 }
 
+/// Largest amplitude after 400 periods of a unit mass at 1 m/s with a sampled damper, its force
+/// one exchange late, against its velocity through λ/(s+λ), behind a lag.
+fn swing_m_per_s(damping: f64, behind: &SampledLoop) -> f64 {
+    const SUBSTEPS: usize = 50;
+    let h = behind.period_s / SUBSTEPS as f64;
+    let keep = (-behind.lambda_rad_per_s * behind.period_s).exp();
+    let (mut x, mut v, mut force) = (0.0, 1.0, 0.0);
+    let (mut before, mut filtered, mut sent): (f64, f64, f64) = (0.0, 0.0, 0.0);
+    let mut largest: f64 = 0.0;
+    for tick in 0..400 {
+        let held = sent;
+        filtered = keep * filtered + (1.0 - keep) / behind.period_s * (x - before);
+        before = x;
+        sent = -damping * filtered;
+        for _ in 0..SUBSTEPS {
+            force += (held - force) * (1.0 - (-h / behind.lag_s).exp());
+            v += h * force;
+            x += h * v;
+        }
+        largest = if tick < 380 {
+            0.0
+        } else {
+            largest.max(v.abs())
+        };
+    }
+    largest
+}
+
 #[test]
-fn effective_delay_is_period_lag_and_filter() {
-    let tip = Tip::new(&hhd(), PERIOD_S);
-    assert!((tip.delay_s - (0.001 + 0.0005 + 1.0 / 1256.6)).abs() < 1e-12);
-    assert!(Tip::new(&phantom(), PERIOD_S).delay_s > 0.003);
+fn hardest_damper_damps_the_sampled_loop_and_a_third_more_swings_up() {
+    for (period_s, lag_s) in [(1e-3, 5e-4), (5e-4, 5e-4), (2.5e-4, 5e-4), (1e-3, 2.2e-3)] {
+        let behind = SampledLoop {
+            period_s,
+            lag_s,
+            lambda_rad_per_s: 1256.6,
+        };
+        let hardest = behind.damping_max_per_s();
+        let (damped, swung) = (swing_m_per_s(hardest, &behind), swing_m_per_s(1.34 * hardest, &behind));
+        assert!(damped < 0.1, "{damped}");
+        assert!(swung > 1.0, "{swung}");
+    }
+}
+
+#[test]
+fn hardest_damper_of_a_device_is_that_of_its_mass_period_lag_and_filter() {
+    let hardest = Tip::new(&hhd(), PERIOD_S).damping_max_n_s_per_m;
+    assert!((hardest - 532.7).abs() < 0.1, "{hardest}");
+    let mut heavier = hhd();
+    heavier.tip.mass_kg *= 2.0;
+    let twice = Tip::new(&heavier, PERIOD_S).damping_max_n_s_per_m;
+    assert!((twice - 2.0 * hardest).abs() < 1e-9);
+    assert!(Tip::new(&hhd(), 0.5 * PERIOD_S).damping_max_n_s_per_m > hardest);
 }
