@@ -124,7 +124,10 @@ fn hardest_damper_damps_the_sampled_loop_and_a_third_more_swings_up() {
             lambda_rad_per_s: 1256.6,
         };
         let hardest = behind.damping_max_per_s();
-        let (damped, swung) = (swing_m_per_s(hardest, &behind), swing_m_per_s(1.34 * hardest, &behind));
+        let (damped, swung) = (
+            swing_m_per_s(hardest, &behind),
+            swing_m_per_s(1.34 * hardest, &behind),
+        );
         assert!(damped < 0.1, "{damped}");
         assert!(swung > 1.0, "{swung}");
     }
