@@ -17,10 +17,14 @@ def loop_delay_s(rate_hz: float, exchange_s: float, extra_ticks: int = 0) -> flo
 
 
 def exchange_s(status: ServoStatus | None) -> float:
-    """The exchange that 99 % do not exceed, s, from the servo's histogram; 0 before there are any."""
+    """The median exchange, s, from the servo's histogram; 0 before there are any.
+
+    A stability limit is about the delay that every tick has. A rare long exchange is a missed deadline, and
+    would otherwise lower the limit of a whole session.
+    """
     if status is None or status["exchange"]["count"] == 0:
         return 0.0
-    return status["exchange"]["p99_ns"] * 1e-9
+    return status["exchange"]["p50_ns"] * 1e-9
 
 
 def command_delay_ticks(model: Model) -> int:

@@ -13,7 +13,7 @@ from hapticd import _core
 from hapticd.flat_wall import rigid_plane
 from tests.servo.rig import enable
 
-WALL = rigid_plane([0.0, 0.0, 1.0], -0.5)
+WALLS = [rigid_plane([0.0, 0.0, 1.0], -0.5, key=key) for key in range(256)]
 
 
 def main(region: str) -> None:
@@ -27,7 +27,7 @@ def main(region: str) -> None:
             "mapping": "transpose",
             "stiffness": "pose",
             "allocation": "motor_only",
-            "walls": [WALL] * 256,
+            "walls": WALLS,
         }
         front.heartbeat()
         try:

@@ -98,7 +98,7 @@ pub fn parse(json: &str) -> Result<(Request, Option<u64>), String> {
     let request = document.request()?;
     if !request.is_valid() {
         return Err(
-            "a number is out of range: normals have unit length, eta is 0 to 1, sizes and times are not negative, static friction is at least the kinetic".into(),
+            "a number is out of range: normals have unit length, eta is 0 to 1, sizes and times are not negative, static friction is at least the kinetic, and every wall has a key of its own".into(),
         );
     }
     Ok((request, epoch))
