@@ -8,7 +8,10 @@ use hapticd_control::fault::{Fault, FaultSet};
 use hapticd_control::io::{status, Exchange};
 use hapticd_control::linear::V3;
 use hapticd_control::record::flag;
-use hapticd_control::scene::{Allocation, Mapping, Scene, StiffnessScope, Wall};
+use hapticd_control::scene::{
+    Allocation, CubicForm, Friction, FrictionActuator, Law, Mapping, Scene, Shape, StiffnessScope,
+    Wall,
+};
 use proptest::prelude::*;
 
 /// One thing that happens to a device.
@@ -33,17 +36,106 @@ fn vector(size: f64) -> impl Strategy<Value = V3> {
     prop::array::uniform3(-size..size).prop_map(V3::from)
 }
 
+fn any_law() -> impl Strategy<Value = Law> {
+    let damping = || prop_oneof![Just(0.0), 1.0..3000.0_f64];
+    let cubic = (3.0..9.0_f64, any::<bool>()).prop_map(|(exponent, implicit)| Law::CubicDamper {
+        coefficient_n_s3_per_m3: 10_f64.powf(exponent),
+        form: if implicit {
+            CubicForm::Implicit
+        } else {
+            CubicForm::Explicit
+        },
+    });
+    prop_oneof![
+        3 => (0.0..=1.0_f64).prop_map(|eta| Law::Motion { eta }),
+        2 => (1.0..3e5_f64, damping()).prop_map(|(stiffness_n_per_m, damping_n_s_per_m)| {
+            Law::Spring { stiffness_n_per_m, damping_n_s_per_m }
+        }),
+        1 => damping().prop_map(|damping_n_s_per_m| Law::Damper { damping_n_s_per_m }),
+        2 => cubic,
+    ]
+}
+
+fn any_friction() -> impl Strategy<Value = Friction> {
+    let actuators = [
+        FrictionActuator::Auto,
+        FrictionActuator::Motor,
+        FrictionActuator::Brake,
+    ];
+    let rough =
+        (0.0..1.5_f64, 0.0..1.0_f64, 0..3_usize).prop_map(move |(static_, share, i)| Friction {
+            static_,
+            kinetic: share * static_,
+            actuator: actuators[i],
+        });
+    prop_oneof![Just(Friction::default()), rough]
+}
+
+/// Shapes near the home poses of both devices, around them and beside them.
+fn any_shape() -> impl Strategy<Value = Shape> {
+    let unit = || {
+        vector(1.0)
+            .prop_filter("normal has a length", |normal| normal.norm() > 0.1)
+            .prop_map(|normal| normal.normalize())
+    };
+    let near = || vector(0.15).prop_map(|center| center + V3::new(0.05, 0.1, 0.0));
+    let size = || 0.01..0.15_f64;
+    prop_oneof![
+        3 => (unit(), -0.25..0.05_f64).prop_map(|(normal, offset_m)| Shape::Plane {
+            normal: normal.into(),
+            offset_m,
+        }),
+        1 => (near(), size(), any::<bool>()).prop_map(|(center_m, radius_m, hollow)| {
+            Shape::Sphere { center_m: center_m.into(), radius_m, hollow }
+        }),
+        1 => (near(), -3.0..3.0_f64, [size(), size(), size()], any::<bool>()).prop_map(
+            |(center_m, turn, half_m, hollow)| Shape::Box {
+                center_m: center_m.into(),
+                axes: [
+                    [turn.cos(), turn.sin(), 0.0],
+                    [-turn.sin(), turn.cos(), 0.0],
+                    [0.0, 0.0, 1.0],
+                ],
+                half_m,
+                hollow,
+            }
+        ),
+        1 => (near(), near(), size(), any::<bool>()).prop_map(|(from_m, to_m, radius_m, hollow)| {
+            Shape::Capsule {
+                from_m: from_m.into(),
+                to_m: to_m.into(),
+                radius_m,
+                hollow,
+            }
+        }),
+    ]
+}
+
 fn wall() -> impl Strategy<Value = Wall> {
-    let offset = -0.25..0.05_f64;
-    (vector(1.0), offset, 0.0..1.0_f64)
-        .prop_filter("normal has a length", |(normal, ..)| normal.norm() > 0.1)
-        .prop_map(|(normal, offset_m, eta)| {
-            Wall::plane(1, normal.normalize().into(), offset_m, eta)
-        })
+    let switches = (any::<bool>(), any::<bool>());
+    (any_shape(), any_law(), any_friction(), switches).prop_map(
+        |(shape, law, friction, (passivity, brake))| Wall {
+            key: 0,
+            shape,
+            law,
+            passivity,
+            brake,
+            friction,
+        },
+    )
+}
+
+/// Walls numbered from `first` on, so that some survive an edit and some do not.
+fn numbered(walls: &[Wall], first: u64) -> Vec<Wall> {
+    let number = |(i, wall): (usize, &Wall)| Wall {
+        key: first + i as u64,
+        ..*wall
+    };
+    walls.iter().enumerate().map(number).collect()
 }
 
 fn edit() -> impl Strategy<Value = Act> {
-    let choices = (0..3_usize, any::<bool>(), any::<bool>());
+    let choices = (0..3_usize, any::<bool>(), any::<bool>(), 0..3_u64);
     let fade = prop_oneof![Just(0.0), 0.0..0.05_f64];
     (prop::collection::vec(wall(), 0..5), fade, choices).prop_map(|(walls, fade_s, choices)| {
         let allocations = [
@@ -63,7 +155,7 @@ fn edit() -> impl Strategy<Value = Act> {
             } else {
                 StiffnessScope::Pose
             },
-            ..scene(&walls, fade_s)
+            ..scene(&numbered(&walls, choices.3), fade_s)
         }))
     })
 }
