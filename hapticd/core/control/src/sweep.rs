@@ -1,4 +1,8 @@
 //! A wall that is moved by an edit pushes the proxy along, as if it had come all the way.
+//!
+//! Each wall does so by itself: what stands behind the proxy does not hold it, so that a wall can
+//! push it through another one. Where both are solid and thick the next tick finds it in the other
+//! wall, and pushes it out by the nearest face; it crosses one that is thinner than the push.
 
 use crate::linear::{M3, V3};
 use crate::scene::Shape;

@@ -1,5 +1,6 @@
 //! Property tests of everything from counts to joint demand.
 
+mod chai3d;
 mod contact;
 mod couple;
 mod edits;
