@@ -126,6 +126,19 @@ class SpringDrive:
         found: Spectrum = self._held(z, period_s) * z**-delay_ticks * feedback
         return found
 
+    def sampled_setpoint(
+        self, frequency_hz: NDArray[np.float64], period_s: float, delay_ticks: int
+    ) -> Spectrum:
+        """Torque by set-point with the rotor held, the set-point's velocity known exactly, N·m/rad.
+
+        WN eq. 10 and 11 computed every ``period_s``, held between, and late; exact at the sampling instants.
+        Without hold and delay, and with K_D = 0 or λ → ∞, it is ``stiffness``.
+        """
+        z = np.exp(2j * np.pi * frequency_hz * period_s)
+        feed = self.k_p + (self.k_t + self.k_d) * 2j * np.pi * frequency_hz
+        found: Spectrum = self._held(z, period_s) * z**-delay_ticks * feed
+        return found
+
     def free_space(self, frequency_hz: NDArray[np.float64]) -> Spectrum:
         """As ``stiffness`` with the set-point on the rotor (WN eq. 16): what the filter's lag leaves."""
         s = 2j * np.pi * frequency_hz

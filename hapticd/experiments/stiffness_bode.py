@@ -6,6 +6,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from hapticd.analysis.spring_drive import SpringDrive
+from hapticd.experiments.bench import DeviceBench
+from hapticd.experiments.bode_device_claims import claims_on_device
+from hapticd.experiments.bode_device_figure import draw_on_device
+from hapticd.experiments.bode_on_device import PROBE, measure_on
 from hapticd.experiments.drive_tuning import MODEL, RESIDUAL, TUNING
 from hapticd.experiments.experiment import Outcome, Parameter
 from hapticd.experiments.run import Run
@@ -28,7 +32,7 @@ class StiffnessBode:
     models = (MODEL,)
     overrides: Mapping[str, Any] = CLEAN
     uncertain = ("estimator.lambda_rad_per_s", "drive.l_h", "drive.k_t_nm_per_a")
-    on_device = False
+    on_device = True
     parameters = (
         RESIDUAL,
         TUNING,
@@ -65,6 +69,7 @@ class StiffnessBode:
         Parameter("points", 15, "1", "Frequencies on each curve", "chosen", minimum=4, maximum=200),
         Parameter("amplitude_m", 1e-4, "m", "Stroke of the shaker at the tip", "chosen, linear", 1e-6, 1e-3),
         Parameter("eta", 0.3, "1", "η of the compliant wall", "chosen", minimum=0.05, maximum=0.95),
+        PROBE,
     )
 
     def run(self, run: Run) -> Outcome:
@@ -84,6 +89,24 @@ class StiffnessBode:
 
         traces = {curve.name: curve.trace() for curve in curves}
         return Outcome(results, claims(curves, drive, results), figure, traces)
+
+    async def run_on(self, run: Run, bench: DeviceBench) -> Outcome:
+        """Moves the set-point of a device whose tip is locked, and reads what its motors give."""
+        found = await measure_on(run, bench)
+        results = {
+            "force_from": found.motors.force_from,
+            "stiffness_n_per_m": found.k_c,
+            "tip_m": found.tip.tolist(),
+            "tip_moved_m": found.moved_m,
+            "limits": found.limits,
+            **{name: series.numbers() for name, series in found.series.items()},
+        }
+
+        def figure(figure: Figure) -> None:
+            draw_on_device(figure, found)
+
+        traces = {name: series.trace() for name, series in found.series.items()}
+        return Outcome(results, claims_on_device(found), figure, traces)
 
 
 def summary(drive: SpringDrive) -> dict[str, float]:

@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from hapticd.analysis.spring_drive import SpringDrive
+from hapticd.experiments.bode_on_device import FORCE_FROM
 from hapticd.experiments.experiment import Outcome
 from hapticd.experiments.run import Run
 from hapticd.experiments.settings import resolve
 from hapticd.experiments.stiffness_bode import EXPERIMENT
 from hapticd.model import load_model
+from hapticd.twin import TwinRun
+from tests.hapticd.experiments.twin_bench import TwinBench
 from tests.oracle.spring_drive import Drive
 
 TIP_PER_ROTOR = 2500.0
@@ -100,3 +103,60 @@ def test_only_known_statements_of_the_paper_fail(outcome: Outcome) -> None:
         "The coupling stiffness is a passive coupling, with PD",
         "The static stiffness is reduced by the factor η, read as multiplied by η",
     ]
+
+
+async def on_device(bench: TwinBench) -> Outcome:
+    settings = resolve(EXPERIMENT, {"points": 6, "lowest_hz": 1.0})
+    return await EXPERIMENT.run_on(Run(EXPERIMENT, settings), bench)
+
+
+async def test_a_locked_phantom_renders_k_c_and_the_closed_form_by_its_currents() -> None:
+    smooth = {"twin.winding.brush_ripple": 0.0, "joints.home_rad": [0.4, 0.1, 0.5]}
+    bench = TwinBench(TwinRun("phantom-1.0", overrides=smooth))
+    outcome = await on_device(bench)
+    seen = outcome.results["currents"]
+    assert outcome.results["force_from"] == FORCE_FROM["currents"]
+    k_c = bench.twin.run(0.001)["stiffness_n_per_m"][0]
+    assert seen["magnitude_n_per_m"][0] == pytest.approx(k_c, rel=0.03)
+    # By hand: a zero at K_P/(2π k_T) = 43.7 Hz and a pole at dR/(2π L) = 72.9 Hz.
+    f = seen["frequency_hz"][3]
+    assert f == pytest.approx(37.8, abs=0.1)
+    by_hand = k_c * np.sqrt((1 + (f / 43.7) ** 2) / (1 + (f / 72.9) ** 2))
+    assert seen["magnitude_n_per_m"][3] == pytest.approx(by_hand, rel=0.03)
+    assert seen["max_shape_deviation_db"] < 1.0
+    assert seen["max_phase_deviation_deg"] < 5.0
+    assert outcome.results["limits"] == 0
+    assert bench.scenes[-1] == {"walls": []}
+
+
+async def test_half_of_the_current_is_seen_where_the_motors_are_half_as_strong_as_modelled() -> None:
+    weak = {"twin.winding.brush_ripple": 0.0, "twin.winding.r_hat_scale": [0.95] * 3}
+    outcome = await on_device(TwinBench(TwinRun("phantom-1.0", overrides=weak)))
+    # dR rises from 0.109 Ω to 0.109 + 0.05·2.071 = 0.2126 Ω.
+    share = outcome.results["currents"]["magnitude_n_per_m"][0] / outcome.results["stiffness_n_per_m"]
+    assert share == pytest.approx(0.109 / 0.21255, rel=0.02)
+    assert outcome.claims[0].verdict == "fails"
+
+
+async def test_a_locked_hhd_renders_its_coupling_and_its_sensor_misses_what_friction_holds() -> None:
+    outcome = await on_device(TwinBench(TwinRun("hhd")))
+    seen = outcome.results["estimate"]
+    assert seen["magnitude_n_per_m"][0] == pytest.approx(60000.0, rel=0.01)
+    f = np.array(seen["frequency_hz"])
+    z = np.exp(2j * np.pi * f / 1000.0)
+    by_hand = (60000.0 + 2j * np.pi * f * 200.0) * (1 - np.exp(-2)) / (z - np.exp(-2))
+    np.testing.assert_allclose(seen["magnitude_n_per_m"], np.abs(by_hand), rtol=0.01)
+    np.testing.assert_allclose(seen["phase_deg"], np.degrees(np.angle(by_hand)), atol=1.0)
+    # 18 N are asked for, and friction and the brakes' drag hold up to 8 N of them.
+    assert 0.5 < outcome.results["sensor"]["magnitude_n_per_m"][0] / 60000.0 < 0.8
+    assert outcome.claims[-1].verdict == "fails"
+
+
+@pytest.mark.parametrize("model", ["phantom-1.0", "hhd"])
+async def test_a_loose_tip_ends_the_sweep_and_decides_nothing(model: str) -> None:
+    bench = TwinBench(TwinRun(model), is_twin=False)
+    outcome = await on_device(bench)
+    assert {claim.verdict for claim in outcome.claims} == {"undecidable"}
+    assert all("not locked" in (claim.reason or "") for claim in outcome.claims)
+    assert np.ptp(bench.twin.run(0.5)["tip_position_m"], axis=0).max() < 5e-3
+    assert len(outcome.results["estimate"]["frequency_hz"]) < 6
