@@ -2,7 +2,7 @@
 
 use crate::linear::V3;
 use crate::model::BrakeModel;
-use crate::relief::Decay;
+use crate::release::Decay;
 use crate::scene::Allocation;
 
 /// Time over which a motor leaves its share to a brake that sticks, s (physics §5: 10–20 ms).

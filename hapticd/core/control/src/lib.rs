@@ -40,7 +40,7 @@ pub mod plausibility;
 pub mod proxy;
 pub mod publish;
 pub mod record;
-pub mod relief;
+pub mod release;
 pub mod render;
 pub mod scene;
 pub mod shape;

@@ -228,3 +228,26 @@ fn contradicting_rigid_walls_meet_in_the_middle() {
     let found = x_sd(&walls, &V3::new(0.0, 0.0, 0.005));
     assert!(found.norm() < 1e-8);
 }
+
+#[test]
+fn rigid_wall_that_the_set_point_only_grazes_has_no_share() {
+    let walls = [
+        wall(
+            V3::new(-0.3629, -0.57006, 0.73711).normalize(),
+            -0.0032484,
+            0.0,
+        ),
+        wall(
+            V3::new(0.83459, 0.10953, -0.53988).normalize(),
+            -9.5326e-5,
+            0.0,
+        ),
+        wall(V3::new(0.74555, 0.0, 0.66645).normalize(), -0.0051167, 0.0),
+    ];
+    let x = V3::new(0.031262, 0.055323, -0.069981);
+    let found = set_point(&walls, &x, &V3::zeros());
+    let mut share_m = [f64::NAN; 3];
+    shares(&walls, &found, &mut share_m);
+    let total: V3 = (0..3).map(|i| share_m[i] * V3::from(walls[i].normal)).sum();
+    assert!((total - (found.x_sd - x)).norm() < 1e-7, "{share_m:?}");
+}

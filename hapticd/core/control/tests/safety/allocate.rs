@@ -3,7 +3,7 @@
 use crate::models::brakes;
 use hapticd_control::allocate::{lone_brake_nm, releasing, usable, Allocator, Load};
 use hapticd_control::linear::{M3, V3};
-use hapticd_control::relief::SHARE;
+use hapticd_control::release::SHARE;
 use hapticd_control::scene::Allocation;
 use proptest::prelude::*;
 
