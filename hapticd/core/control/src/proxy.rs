@@ -18,6 +18,9 @@ const REST_M: f64 = 1e-10;
 /// Most pushes out of a wall in one tick.
 const PUSHES: usize = 8;
 
+/// How much farther it looks around where it was shut in, m.
+const SHUT_M: f64 = 0.01;
+
 /// Cuts of a round cavity in one round at most. Each leaves a quarter of the error of the one
 /// before, or less.
 const CUTS: usize = 32;
@@ -41,6 +44,8 @@ pub struct Proxy {
     facings: Facings,
     history: History,
     near: Neighbours,
+    /// Whether the walls left it no free space in the last tick.
+    shut_in: bool,
 }
 
 impl Proxy {
@@ -72,6 +77,7 @@ impl Proxy {
         self.facings.clear();
         self.near.adopt(walls);
         self.history = history;
+        self.shut_in = false;
     }
 
     /// Forgets where the tip was: it may have been taken through walls unseen.
@@ -87,6 +93,7 @@ impl Proxy {
             return;
         }
         let from = self.history.start(walls, x);
+        let from = if self.shut_in { *x } else { from };
         let p = self.rest(walls, x, from, around);
         self.history.point = Some(p);
         // A soft set-point is no further from the tip than the proxy: in a sharp corner one wall
@@ -115,12 +122,19 @@ impl Proxy {
                     pushes += 1;
                     if pushes > PUSHES || around.is_shut(x) {
                         // No free space where walls have closed around it: it starts anew at the tip.
+                        self.shut_in = true;
+                        if p == *x {
+                            return p;
+                        }
                         p = *x;
                         break;
                     }
                     p + short_m * wall.normal
                 }
-                _ => self.step(&p, x, around),
+                _ => {
+                    self.shut_in = false;
+                    self.step(&p, x, around)
+                }
             };
             let moved_m = (next - p).norm();
             p = next;
@@ -169,7 +183,11 @@ impl Proxy {
         let span_m = (x - p).norm();
         self.near.cover(walls, x, span_m);
         around.clear();
-        let reach_m = 2.0 * span_m + FREE_M;
+        let mut reach_m = 2.0 * span_m + FREE_M;
+        if self.shut_in {
+            // What shut it in is looked for at once, also where the tip is not in it.
+            reach_m += SHUT_M;
+        }
         for (wall, solid) in self.near.walls() {
             let mut keep = |owner: usize, support: Support, everywhere: bool| {
                 if support.gap_m(p) <= reach_m {
