@@ -157,14 +157,14 @@ class Jobs:
         }
 
     def _check_device(self, chosen: Experiment, request: ExperimentRequest, device: Device) -> None:
-        if not chosen.on_device or request.jitter:
+        if not isinstance(chosen, DeviceExperiment) or request.jitter:
             what = (
                 f"{chosen.name} runs on its own twin alone" if not request.jitter else "Jitter is for twins"
             )
             detail = f"{what}, not on {device.device_id}."
             raise Problem("experiment-simulated-only", detail, pointer="/device_id")
-        if device.model_name not in chosen.models:
-            known = " or ".join(chosen.models)
+        if device.model_name not in chosen.device_models:
+            known = " or ".join(chosen.device_models)
             detail = f"{chosen.name} needs a {known}; {device.device_id} is a {device.model_name}."
             raise Problem("experiment-simulated-only", detail, pointer="/device_id")
         if keys := [name for name in request.set if name not in own_names(chosen)]:

@@ -61,7 +61,9 @@ class DeviceBench(Protocol):
 
 @runtime_checkable
 class DeviceExperiment(Experiment, Protocol):
-    """An experiment that also runs on a device of a daemon."""
+    """An experiment that also runs on a device of a daemon, of one of ``device_models``."""
+
+    device_models: tuple[str, ...]
 
     async def run_on(self, run: Run, bench: DeviceBench) -> Outcome:
         """Carries it out on the device. ``run`` has parameters, seed, random numbers and progress."""

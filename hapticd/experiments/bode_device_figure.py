@@ -23,8 +23,8 @@ LABELS = {
 }
 MARKS = {"currents": "o", "estimate": "s", "sensor": "^"}
 
-SPAN = (0.2, 5.0)
-"""From the softest to the stiffest of the closed form; a sensor behind friction may see less than that."""
+LOWEST = 0.2
+"""Share of k_c below which nothing is drawn: a sensor behind friction sees next to nothing."""
 
 
 def draw_on_device(figure: Figure, found: BodeOnDevice) -> None:
@@ -37,8 +37,10 @@ def draw_on_device(figure: Figure, found: BodeOnDevice) -> None:
     for name, colour in zip(found.series, COLOURS, strict=False):
         _draw_series(magnitude, phase, found, name, dense, colour)
     magnitude.axhline(found.k_c, color="#808080", linewidth=0.8, zorder=0)
-    magnitude.text(dense[0], 0.97 * found.k_c, f"k_c = {found.k_c:.0f} N/m", va="top", color="#505050")
-    low, high = SPAN[0] * np.abs(continuous).min(), SPAN[1] * np.abs(continuous).max()
+    name = f"k_c = {found.k_c:.0f} N/m"
+    magnitude.text(dense[-1], 0.97 * found.k_c, name, ha="right", va="top", color="#505050")
+    drawn = np.concatenate([np.abs(series.stiffness) for series in found.series.values()])
+    low, high = max(0.75 * drawn.min(), LOWEST * found.k_c), 2.5 * drawn.max()
     magnitude.set(xscale="log", yscale="log", ylabel="stiffness at the tip, N/m", ylim=(low, high))
     magnitude.set_title(
         f"Lines: closed form, solid with hold and delay at {found.rate_hz:g} Hz. Marks: device", fontsize=9.5

@@ -57,6 +57,7 @@ class ForceDirection:
         "twin.hand.clamp_stiffness_n_per_m",
     )
     on_device = True
+    device_models = (MODEL,)
     parameters = (
         POSE,
         RESIDUAL,

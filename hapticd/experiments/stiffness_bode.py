@@ -33,6 +33,7 @@ class StiffnessBode:
     overrides: Mapping[str, Any] = CLEAN
     uncertain = ("estimator.lambda_rad_per_s", "drive.l_h", "drive.k_t_nm_per_a")
     on_device = True
+    device_models = (MODEL, "hhd")
     parameters = (
         RESIDUAL,
         TUNING,

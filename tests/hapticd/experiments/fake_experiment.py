@@ -36,6 +36,7 @@ class FakeExperiment:
     overrides: ClassVar[dict[str, Any]] = {"hhd:twin.hand.mass_kg": 1.3}
     uncertain: tuple[str, ...] = ("hhd:twin.hand.mass_kg", "twin.friction.coulomb_nm")
     on_device = True
+    device_models: tuple[str, ...] = ("hhd", "phantom-1.0")
     parameters: tuple[Parameter, ...] = (
         Parameter("speed_m_per_s", 0.25, "m/s", "Speed", "assumed", minimum=0.0, maximum=2.0, uncertain=True),
         Parameter("runs", 2, "1", "How many runs", "assumed", minimum=1, maximum=10),
