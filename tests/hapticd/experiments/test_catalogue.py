@@ -23,6 +23,9 @@ def test_it_has_everything_the_runner_asks_for(name: str) -> None:
     assert set(chosen.models) <= set(model_names())
     assert all(isinstance(parameter, Parameter) for parameter in chosen.parameters)
     assert isinstance(chosen, DeviceExperiment) == chosen.on_device
+    if isinstance(chosen, DeviceExperiment):
+        assert chosen.device_models
+        assert set(chosen.device_models) <= set(model_names())
     assert callable(chosen.run)
 
 
