@@ -43,7 +43,9 @@ pub fn report<W: FnMut(u64) -> Tick>(name: &str, mut fresh: impl FnMut() -> W) {
     let repeats: Vec<[u64; 3]> = (0..REPEATS)
         .map(|_| {
             let mut world = fresh();
-            (0..WARM_UP).for_each(|tick| drop(world(tick)));
+            for tick in 0..WARM_UP {
+                world(tick);
+            }
             touching = 0;
             let mut times_ns: Vec<u64> = (WARM_UP..WARM_UP + ticks)
                 .map(|tick| {
