@@ -13,9 +13,9 @@ DAMPING_MAX_N_S_PER_M = 1e4
 COEFFICIENT_MAX_N_S3_PER_M3 = 1e9
 
 DEFAULT_COEFFICIENT_N_S3_PER_M3 = {"explicit": 1.6e6, "implicit": 1.28e7}
-"""C as printed (KS §4), and eight times that for the implicit form, whose slope is bounded: a weak push (27 N at
-0.25 m/s) on the HHD's twin ends 2.8 mm deep, 3.0 mm with the printed C, 2.6 mm with eight times more, at which a
-single encoder count would meet the full slope (docs/laws.md)."""
+"""C as printed (KS §4), and eight times that for the implicit form, whose slope is bounded: a weak push (27 N
+at 0.25 m/s) on the HHD's twin ends 2.8 mm deep, 3.0 mm with the printed C, 2.6 mm with eight times more, at
+which a single encoder count would meet the full slope (docs/laws.md)."""
 
 Damping = Annotated[float, Field(ge=0.0, le=DAMPING_MAX_N_S_PER_M)]
 
