@@ -98,7 +98,7 @@ impl Proxy {
         self.history.point = Some(p);
         // A soft set-point is no further from the tip than the proxy: in a sharp corner one wall
         // pushes it into the next, that the tip itself is not in.
-        let span_m = (p - x).norm();
+        let span_m = if self.shut_in { SHUT_M } else { (p - x).norm() };
         for (wall, support) in around.by_wall() {
             if wall != NOBODY && support.gap_m(x) < span_m {
                 self.facings.push(Facing {
@@ -118,18 +118,19 @@ impl Proxy {
         for _ in 0..ROUNDS {
             self.look(walls, &p, x, around);
             let next = match around.worst(&p) {
-                Some((wall, short_m)) if short_m > FREE_M => {
+                Some((_, short_m)) if short_m > FREE_M => {
                     pushes += 1;
                     if pushes > PUSHES || around.is_shut(x) {
                         // No free space where walls have closed around it: it starts anew at the tip.
+                        let looked = self.shut_in && p == *x;
                         self.shut_in = true;
-                        if p == *x {
+                        if looked {
                             return p;
                         }
                         p = *x;
                         break;
                     }
-                    p + short_m * wall.normal
+                    around.nearest(&p)
                 }
                 _ => {
                     self.shut_in = false;

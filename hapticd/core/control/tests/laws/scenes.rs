@@ -271,3 +271,27 @@ fn damper_wall_is_touched_and_gives_nothing_at_rest_or_outwards() {
         assert!(at(0.1).demand.force_n.norm() < 1e-6);
     }
 }
+
+/// A tip that starts among walls, without a history: nothing tells where it came from.
+fn started_among(parts: &[(f64, f64)]) -> f64 {
+    let model = hhd();
+    let home = at_home(&model);
+    let rigid = |&(angle, depth_m): &(f64, f64)| (angle, depth_m, Law::Motion { eta: 0.0 }, false);
+    let parts: Vec<_> = parts.iter().map(rigid).collect();
+    let mut bench = Bench::new(&model, &walls_around(&home, &parts));
+    let aside = moved(&model, &home, V3::new(-6e-5, 0.0, 0.0), V3::zeros());
+    let change_n = bench.at(&aside).demand.force_n - bench.at(&home).demand.force_n;
+    change_n.norm() / (aside.x - home.x).norm()
+}
+
+#[test]
+fn tip_that_starts_in_a_sharp_wedge_finds_its_corner_at_once() {
+    let wedge = [(0.0, 3.67e-3), (155_f64.to_radians(), 0.05e-3)];
+    assert!(started_among(&wedge) <= 1.001 * torque_drive().stiffness_n_per_m);
+}
+
+#[test]
+fn walls_that_leave_no_free_space_are_felt_before_the_tip_is_in_them() {
+    let shut = [(3.044, 2.05e-5), (0.0, 0.0), (4.3552, 2.68e-3)];
+    assert!(started_among(&shut) <= 1.001 * torque_drive().stiffness_n_per_m);
+}
