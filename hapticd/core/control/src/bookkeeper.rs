@@ -3,7 +3,7 @@
 
 use crate::brake::Brakes;
 use crate::couple::JointDemand;
-use crate::energy::{Account, Ledger, Span, Touch};
+use crate::energy::{Ledger, Span, Touch};
 use crate::estimate::JointState;
 use crate::linear::V3;
 use crate::model::DeviceModel;
@@ -115,16 +115,9 @@ impl Bookkeeper {
             let touched = touches
                 .iter()
                 .find(|touched| touched.push.wall as u64 == *wall);
-            let energy_j = touched.and_then(|touched| self.account(touched.push.key));
+            let energy_j = touched.and_then(|touched| self.ledger.account(touched.push.key));
             record.touched_energy_j[place] = energy_j.map_or(0.0, |account| account.energy_j);
         }
-    }
-
-    fn account(&self, key: u64) -> Option<&Account> {
-        self.ledger
-            .accounts()
-            .iter()
-            .find(|account| account.key == key)
     }
 }
 

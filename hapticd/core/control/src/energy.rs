@@ -20,24 +20,45 @@ pub const SEPARATION_S: f64 = 0.05;
 /// Exponent T/lag below which the mean over a period is the mean of its ends to 1e-9.
 const SHORT: f64 = 1e-4;
 
-/// Mean torque of a period, N·m, that begins with `before_nm`, ends with `after_nm` and follows
-/// a first-order lag that leaves the share `retain` of a torque after one period.
-///
-/// With a = `retain` and the torque it tends to, (τ₁ − a τ₀)/(1 − a), the mean is
-/// (τ₁ − a τ₀)/(1 − a) + (τ₀ − τ₁)/ln(1/a). Needs neither command nor motion.
-#[must_use]
-pub fn mean_nm(before_nm: &V3, after_nm: &V3, retain: &V3) -> V3 {
-    V3::from_fn(|i, _| mean(before_nm[i], after_nm[i], retain[i]))
+/// What a first-order lag makes of a torque in one period.
+#[derive(Clone, Copy, Debug)]
+struct Lag {
+    /// Share that is left at its end.
+    retain: V3,
+    /// Share of the torque at its start in the mean.
+    before: V3,
+    /// Share of the torque at its end in the mean.
+    after: V3,
 }
 
-fn mean(before: f64, after: f64, a: f64) -> f64 {
+impl Lag {
+    fn new(retain: &V3) -> Self {
+        let shares = retain.map(shares);
+        Self {
+            retain: *retain,
+            before: shares.map(|(before, _)| before),
+            after: shares.map(|(_, after)| after),
+        }
+    }
+
+    fn mean_nm(&self, before_nm: &V3, after_nm: &V3) -> V3 {
+        self.before.component_mul(before_nm) + self.after.component_mul(after_nm)
+    }
+}
+
+/// Shares of the torques at both ends in the mean of a period with the lag's retention `a`.
+///
+/// With the torque it tends to, (τ₁ − a τ₀)/(1 − a), the mean is
+/// (τ₁ − a τ₀)/(1 − a) + (τ₀ − τ₁)/ln(1/a). Needs neither command nor motion.
+fn shares(a: f64) -> (f64, f64) {
     let exponent = -a.ln();
     if a <= 0.0 {
-        after
+        (0.0, 1.0)
     } else if exponent < SHORT {
-        0.5 * (before + after)
+        (0.5, 0.5)
     } else {
-        (after - a * before) / (1.0 - a) + (before - after) / exponent
+        let before = exponent.recip() - a / (1.0 - a);
+        (before, 1.0 - before)
     }
 }
 
@@ -68,10 +89,10 @@ pub struct Course {
 }
 
 impl Course {
-    fn advance(&mut self, retain: &V3) {
+    fn advance(&mut self, lag: &Lag) {
         let before_nm = self.state_nm;
-        self.state_nm = settle(&before_nm, &self.sent_nm, retain);
-        self.push(mean_nm(&before_nm, &self.state_nm, retain));
+        self.state_nm = settle(&before_nm, &self.sent_nm, &lag.retain);
+        self.push(lag.mean_nm(&before_nm, &self.state_nm));
     }
 
     fn push(&mut self, mean_nm: V3) {
@@ -82,9 +103,23 @@ impl Course {
         }
     }
 
-    /// Mean torques since the last frame, `periods` ago, N·m, one per delay; begins anew.
-    fn take(&mut self, periods: f64) -> [V3; DELAYS] {
-        core::mem::take(&mut self.sums_nm).map(|sum_nm| sum_nm / periods)
+    /// Makes the sums since the last frame, `periods` ago, means.
+    fn average(&mut self, periods: f64) {
+        self.sums_nm
+            .iter_mut()
+            .for_each(|sum_nm| *sum_nm /= periods);
+    }
+
+    /// Begins a new frame.
+    fn begin(&mut self) {
+        self.sums_nm = [V3::zeros(); DELAYS];
+    }
+
+    /// Whether nothing of it is on its way.
+    fn is_still(&self) -> bool {
+        let ends = [&self.sent_nm, &self.state_nm].into_iter();
+        let mut all = ends.chain(&self.means_nm).chain(&self.sums_nm);
+        all.all(|torque_nm| *torque_nm == V3::zeros())
     }
 }
 
@@ -104,6 +139,8 @@ pub struct Account {
     pub touch: Touch,
     /// Time since it was touched, s.
     free_s: f64,
+    /// Whether nothing changes any more until it is touched again.
+    asleep: bool,
 }
 
 /// What one wall asks for in one tick, summed over its surfaces and over scenes in cross-fade.
@@ -134,6 +171,11 @@ impl Account {
         self.course.state_nm.amax() + self.course.sent_nm.amax()
     }
 
+    /// Falls asleep once the contact is over and nothing is on its way.
+    pub(crate) fn doze(&mut self) {
+        self.asleep = self.free_s >= SEPARATION_S && self.course.is_still();
+    }
+
     fn pay(&mut self, delay: usize, returned_j: f64) {
         self.reserve_j[delay] -= returned_j;
         if delay == EXCHANGE_TICKS {
@@ -141,8 +183,7 @@ impl Account {
         }
     }
 
-    fn rest(&mut self, period_s: f64) {
-        self.free_s += period_s;
+    fn rest(&mut self) {
         if self.free_s >= SEPARATION_S {
             self.energy_j = 0.0;
             self.reserve_j = self.reserve_j.map(|reserve_j| reserve_j.min(0.0));
@@ -160,7 +201,11 @@ pub struct Ledger {
     /// Periods since the last frame.
     periods: u32,
     count: usize,
+    /// Keys of the accounts, side by side for the search.
+    keys: [u64; ACCOUNTS],
     accounts: [Account; ACCOUNTS],
+    /// Whether in this period no account was found that could give way.
+    crowded: bool,
 }
 
 impl Ledger {
@@ -174,7 +219,9 @@ impl Ledger {
             measured: false,
             periods: 0,
             count: 0,
+            keys: [0; ACCOUNTS],
             accounts: [Account::default(); ACCOUNTS],
+            crowded: false,
         }
     }
 
@@ -194,11 +241,16 @@ impl Ledger {
     pub fn advance(&mut self, span: &Span) {
         self.periods += 1;
         self.measured = span.measured;
+        self.crowded = false;
+        let lag = Lag::new(&span.retain);
         self.motors
-            .push(mean_nm(&span.before_nm, &span.after_nm, &span.retain));
+            .push(lag.mean_nm(&span.before_nm, &span.after_nm));
         for account in &mut self.accounts[..self.count] {
-            account.course.advance(&span.retain);
-            account.rest(self.period_s);
+            account.free_s += self.period_s;
+            if !account.asleep {
+                account.course.advance(&lag);
+                account.rest();
+            }
         }
     }
 
@@ -209,45 +261,43 @@ impl Ledger {
         let braked_j = brake_nm.dot(&step_rad.abs());
         let periods = f64::from(self.periods.max(1));
         self.periods = 0;
-        let motors_nm = self.motors.take(periods);
-        let known = if self.measured { 0 } else { EXCHANGE_TICKS };
+        self.motors.average(periods);
+        let motors_nm = self.motors.sums_nm;
+        self.motors.begin();
+        let measured = self.measured;
+        let known = if measured { 0 } else { EXCHANGE_TICKS };
         self.device_j -= motors_nm[known].dot(step_rad);
-        let mut walls_nm = [[V3::zeros(); DELAYS]; ACCOUNTS];
-        for (torques_nm, account) in walls_nm.iter_mut().zip(&mut self.accounts[..self.count]) {
-            *torques_nm = account.course.take(periods);
-        }
-        for delay in 0..DELAYS {
-            let total_nm = motors_nm[if self.measured { 0 } else { delay }];
-            let returned_j = total_nm.dot(step_rad) - braked_j;
-            self.share(delay, returned_j, &walls_nm, step_rad);
-        }
+        let returned_j = core::array::from_fn(|delay| {
+            let total_nm = motors_nm[if measured { 0 } else { delay }];
+            total_nm.dot(step_rad) - braked_j
+        });
+        self.share(&returned_j, periods, step_rad);
     }
 
-    /// Books one delay. What is left of the total goes to the walls by their weight.
-    fn share(
-        &mut self,
-        delay: usize,
-        returned_j: f64,
-        walls_nm: &[[V3; DELAYS]; ACCOUNTS],
-        step_rad: &V3,
-    ) {
-        let own_nm = |wall: usize| walls_nm[wall][delay];
-        let asked_nm: V3 = (0..self.count).map(own_nm).sum();
-        let left_j = returned_j - asked_nm.dot(step_rad);
-        let weight = |wall: usize| own_nm(wall).amax();
-        let weights: f64 = (0..self.count).map(weight).sum();
-        if weights > 0.0 {
-            for (wall, account) in self.accounts[..self.count].iter_mut().enumerate() {
-                let own_j = walls_nm[wall][delay].dot(step_rad);
-                let part = walls_nm[wall][delay].amax() / weights;
-                account.pay(delay, own_j + part * left_j);
+    /// Books one total for each delay. What is left of it goes to the walls by their weight.
+    fn share(&mut self, returned_j: &[f64; DELAYS], periods: f64, step_rad: &V3) {
+        let mut left_j = *returned_j;
+        let mut weights = [0.0; DELAYS];
+        for account in self.awake_mut() {
+            account.course.average(periods);
+            for (delay, own_nm) in account.course.sums_nm.iter().enumerate() {
+                left_j[delay] -= own_nm.dot(step_rad);
+                weights[delay] += own_nm.amax();
             }
+        }
+        for account in self.awake_mut() {
+            for delay in (0..DELAYS).filter(|delay| weights[*delay] > 0.0) {
+                let own_nm = account.course.sums_nm[delay];
+                let part = own_nm.amax() / weights[delay];
+                account.pay(delay, own_nm.dot(step_rad) + part * left_j[delay]);
+            }
+            account.course.begin();
         }
     }
 
     /// Begins a tick: no wall asks for anything yet.
     pub fn withdraw(&mut self) {
-        for account in &mut self.accounts[..self.count] {
+        for account in self.awake_mut() {
             account.touch = Touch::default();
             account.course.sent_nm = V3::zeros();
         }
@@ -258,6 +308,7 @@ impl Ledger {
         let slot = self.slot(asked.key);
         let account = &mut self.accounts[slot];
         account.free_s = 0.0;
+        account.asleep = false;
         account.touch = Touch {
             key: asked.key,
             wall: asked.wall,
@@ -267,21 +318,40 @@ impl Ledger {
         };
     }
 
-    /// The accounts in use, to be changed.
-    pub fn accounts_mut(&mut self) -> &mut [Account] {
-        &mut self.accounts[..self.count]
+    /// The accounts in use in which something may change.
+    pub fn awake_mut(&mut self) -> impl Iterator<Item = &mut Account> {
+        let used = self.accounts[..self.count].iter_mut();
+        used.filter(|account| !account.asleep)
+    }
+
+    /// The account of a wall.
+    #[must_use]
+    pub fn account(&self, key: u64) -> Option<&Account> {
+        self.find(key).map(|slot| &self.accounts[slot])
+    }
+
+    fn find(&self, key: u64) -> Option<usize> {
+        self.keys[..self.count].iter().position(|kept| *kept == key)
+    }
+
+    fn open(&mut self, slot: usize, key: u64) -> usize {
+        self.keys[slot] = key;
+        self.accounts[slot] = Account::of(key);
+        slot
     }
 
     /// The present account, else a new one, else that of the wall longest left alone, else the
     /// last, which further walls share.
     fn slot(&mut self, key: u64) -> usize {
-        if let Some(slot) = self.accounts().iter().position(|kept| kept.key == key) {
+        if let Some(slot) = self.find(key) {
             return slot;
         }
         if self.count < ACCOUNTS {
-            self.accounts[self.count] = Account::of(key);
             self.count += 1;
-            return self.count - 1;
+            return self.open(self.count - 1, key);
+        }
+        if self.crowded {
+            return ACCOUNTS - 1;
         }
         let mut longest = ACCOUNTS - 1;
         for (slot, account) in self.accounts.iter().enumerate() {
@@ -289,11 +359,11 @@ impl Ledger {
                 longest = slot;
             }
         }
-        if self.accounts[longest].free_s >= SEPARATION_S {
-            self.accounts[longest] = Account::of(key);
-            longest
-        } else {
+        self.crowded = self.accounts[longest].free_s < SEPARATION_S;
+        if self.crowded {
             ACCOUNTS - 1
+        } else {
+            self.open(longest, key)
         }
     }
 
@@ -304,13 +374,13 @@ impl Ledger {
         let share = came_through(demand_nm, sent_nm);
         let mut left_nm = *sent_nm;
         let mut weights = 0.0;
-        for account in &mut self.accounts[..self.count] {
+        for account in self.awake_mut() {
             account.course.sent_nm *= share;
             left_nm -= account.course.sent_nm;
             weights += account.weight();
         }
         if weights > 0.0 {
-            for account in &mut self.accounts[..self.count] {
+            for account in self.awake_mut() {
                 let part = account.weight() / weights;
                 account.course.sent_nm += part * left_nm;
             }

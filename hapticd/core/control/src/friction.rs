@@ -113,7 +113,19 @@ impl FrictionRenderer {
         state: &JointState,
         hand_force_n: Option<&V3>,
     ) -> FrictionForce {
-        let motion = self.motion(state, hand_force_n);
+        let step_m = self.step_m(state);
+        let hand_n = self.hand.follow(hand_force_n);
+        if rubbing.is_empty() {
+            self.count = 0;
+            return FrictionForce::default();
+        }
+        let motion = Motion {
+            step_m,
+            velocity: state.xd,
+            hand_n,
+            coupling: self.springs.at(state),
+            period_s: self.period_s,
+        };
         let rubbing = &rubbing[..rubbing.len().min(MAX_RUBBING)];
         let normal_n = shared_normal_n(rubbing, motion.hand_n.as_ref());
         let mut memory = [Memory::default(); MAX_RUBBING];
@@ -134,15 +146,9 @@ impl FrictionRenderer {
         kept.iter().map(|wall| wall.anchor.energy_j()).sum()
     }
 
-    fn motion(&mut self, state: &JointState, hand_force_n: Option<&V3>) -> Motion {
+    fn step_m(&mut self, state: &JointState) -> V3 {
         let before_m = self.tip_m.replace(state.x).unwrap_or(state.x);
-        Motion {
-            step_m: state.x - before_m,
-            velocity: state.xd,
-            hand_n: self.hand.follow(hand_force_n),
-            coupling: self.springs.at(state),
-            period_s: self.period_s,
-        }
+        state.x - before_m
     }
 
     fn recall(&self, key: u64) -> Memory {

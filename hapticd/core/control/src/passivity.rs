@@ -104,14 +104,18 @@ impl Passivity {
     /// are the joint velocities since the last frame, rad/s: late by half a tick where the filter
     /// is later. `retain` is the share of a torque left after one period.
     pub fn control(&self, ledger: &mut Ledger, state: &JointState, qd: &V3, retain: &V3) -> Relief {
+        let mut relief = Relief::default();
+        if ledger.accounts().is_empty() {
+            return relief;
+        }
         let now = Now {
             state,
             xd: state.jacobian * qd,
-            retain,
+            lag_s: retain.map(|a| lag_s(a, self.period_s)),
+            slew_n: self.slew_n / (1.0 - retain.min()),
         };
-        let mut relief = Relief::default();
         let mut largest_n = 0.0;
-        for account in ledger.accounts_mut() {
+        for account in ledger.awake_mut() {
             let asked_n = account.touch.force_n.norm();
             if asked_n <= 0.0 {
                 self.forget(account);
@@ -139,6 +143,7 @@ impl Passivity {
         for reserve_j in &mut account.reserve_j {
             *reserve_j = reserve_j.min(on_its_way_j);
         }
+        account.doze();
     }
 
     fn decide(&self, account: &mut Account, normal: &V3, now: &Now<'_>) -> Change {
@@ -152,12 +157,13 @@ impl Passivity {
         let mut limit_n = f64::INFINITY;
         let mut taken_j = f64::INFINITY;
         for delay in EXCHANGE_TICKS..=self.last_delay {
-            let flight = self.flight(&account.course, &per_metre, delay, now.retain);
+            let flight = self.flight(&account.course, &per_metre, delay, now);
             let back_j = self.back_j(&flight, outward);
             let reserve_j = &mut account.reserve_j[delay];
             *reserve_j = reserve_j.min(ask.stored_j() + back_j);
             if !account.touch.guarded {
                 *reserve_j = reserve_j.max(0.0);
+                continue;
             }
             limit_n = limit_n.min(self.limit_n(*reserve_j, &flight, outward));
             taken_j = taken_j.min(*reserve_j - flight.impulse_n_s * outward.min(0.0));
@@ -190,10 +196,9 @@ impl Passivity {
     }
 
     /// What commands of the past will still do under `delay`.
-    fn flight(&self, course: &Course, per_metre: &V3, delay: usize, retain: &V3) -> Flight {
-        let lag_s = retain.map(|a| lag_s(a, self.period_s));
+    fn flight(&self, course: &Course, per_metre: &V3, delay: usize, now: &Now<'_>) -> Flight {
         let on_its_way: V3 = course.means_nm[..delay].iter().sum();
-        let impulse = self.period_s * on_its_way + lag_s.component_mul(&course.state_nm);
+        let impulse = self.period_s * on_its_way + now.lag_s.component_mul(&course.state_nm);
         let forces_n = course.means_nm[..delay]
             .iter()
             .map(|mean| per_metre.dot(mean));
@@ -203,7 +208,7 @@ impl Passivity {
             stiffness_n_per_m: self
                 .natural_nm_per_rad
                 .dot(&per_metre.component_mul(per_metre)),
-            slew_n: self.slew_n / (1.0 - retain.min()),
+            slew_n: now.slew_n,
         }
     }
 
@@ -242,7 +247,10 @@ struct Now<'a> {
     state: &'a JointState,
     /// Velocity since the last frame, m/s, not filtered.
     xd: V3,
-    retain: &'a V3,
+    /// First-order lag of the motors, s.
+    lag_s: V3,
+    /// Step of a commanded force that the slew limit lets pass in one tick, N.
+    slew_n: f64,
 }
 
 /// Force added along the normal, N, and the damping it amounts to.

@@ -38,8 +38,13 @@ impl HandFilter {
 
 /// Normal force of each wall, N: as rendered, or such that the walls together answer the measured
 /// force of the hand, −F = Σ N_i n_i with N_i ≥ 0, from the rendered forces by Gauss–Seidel.
+/// Among walls that are all slippery nobody asks for it.
 pub(super) fn shared_normal_n(rubbing: &[Rubbing], hand_n: Option<&V3>) -> [f64; MAX_RUBBING] {
     let mut normal_n = [0.0; MAX_RUBBING];
+    let slippery = |rub: &Rubbing| rub.friction.static_ == 0.0 && rub.friction.kinetic == 0.0;
+    if rubbing.iter().all(slippery) {
+        return normal_n;
+    }
     for (normal_n, rub) in normal_n.iter_mut().zip(rubbing) {
         *normal_n = rub.normal_n.max(0.0);
     }

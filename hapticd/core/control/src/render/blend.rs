@@ -83,6 +83,7 @@ impl Answers<'_> {
         blend.explicit_n += weight * hardest * (u.x_sd - state.xd);
         shares(facings.as_slice(), &springs, &mut scratch.spring_m);
         shares(scratch.dampers.as_slice(), &u, &mut scratch.damper_m_per_s);
+        touches.begin();
         let mut before = None;
         for (index, facing) in facings.as_slice().iter().enumerate() {
             let wall = &scene.walls()[facing.wall];

@@ -35,6 +35,9 @@ impl Rub {
         hand_force_n: Option<&V3>,
         demand: &mut JointDemand,
     ) -> FrictionForce {
+        if touches.is_empty() {
+            return self.renderer.force(&[], state, hand_force_n);
+        }
         let count = touches.len().min(MAX_RUBBING);
         let walls: [Rubbing; MAX_RUBBING] = core::array::from_fn(|i| match touches.get(i) {
             Some(touch) => self.rubbing(touch, allocation),

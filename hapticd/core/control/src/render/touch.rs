@@ -102,6 +102,10 @@ impl Touch {
 #[derive(Clone, Debug)]
 pub struct Touches {
     count: usize,
+    /// Those of scenes before the present one.
+    older: usize,
+    /// Place of the one entered last.
+    last: usize,
     touches: [Touch; MAX_WALLS],
 }
 
@@ -109,6 +113,8 @@ impl Default for Touches {
     fn default() -> Self {
         Self {
             count: 0,
+            older: 0,
+            last: 0,
             touches: [Touch::default(); MAX_WALLS],
         }
     }
@@ -126,16 +132,25 @@ impl Touches {
         self.count = 0;
     }
 
+    /// Begins a scene, in which surfaces of one wall follow one another.
+    pub fn begin(&mut self) {
+        self.older = self.count;
+    }
+
     /// The wall of `touch`, put in if it is not there; `None` once [`MAX_WALLS`] are touched.
     pub fn entry(&mut self, touch: &Touch) -> Option<&mut Touch> {
         let key = touch.push.key;
-        let known = self.as_slice().iter().position(|old| old.push.key == key);
+        let places = core::iter::once(self.last).chain(0..self.older);
+        let known = places
+            .filter(|at| *at < self.count)
+            .find(|at| self.touches[*at].push.key == key);
         let at = known.unwrap_or(self.count);
         let slot = self.touches.get_mut(at)?;
         if known.is_none() {
             *slot = *touch;
             self.count += 1;
         }
+        self.last = at;
         Some(slot)
     }
 
