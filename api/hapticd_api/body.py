@@ -12,6 +12,11 @@ BODY_MAX_BYTES = 1 << 20
 """Largest request body: a full scene of 256 walls is about 60 kB."""
 
 
+DISCARD_MAX_BYTES = 16 << 20
+"""How much of a body too large is still read, and thrown away: a connection closed on a client that is
+sending is reset, and the answer lost with it."""
+
+
 class BodyGuard:
     """ASGI middleware that reads a request's body whole, and refuses one too large or not JSON.
 
@@ -28,9 +33,6 @@ class BodyGuard:
             await self._app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        if _declared_bytes(headers) > BODY_MAX_BYTES:
-            await problem_response(_too_large(), {"Connection": "close"})(scope, receive, send)
-            return
         body = await _read(receive)
         if body is None:
             await problem_response(_too_large(), {"Connection": "close"})(scope, receive, send)
@@ -40,24 +42,19 @@ class BodyGuard:
             await self._app(scope, _replay(body, receive), send)
 
 
-def _declared_bytes(headers: Headers) -> int:
-    length = headers.get("content-length", "")
-    return int(length) if length.isascii() and length.isdigit() else 0
-
-
 async def _read(receive: Receive) -> bytes | None:
-    """The whole body, or None once it has grown past the limit."""
-    chunks: list[bytes] = []
+    """The whole body, or None where it has grown past the limit."""
+    body = bytearray()
     size = 0
-    while True:
+    while size <= DISCARD_MAX_BYTES:
         message = await receive()
         chunk: bytes = message.get("body", b"")
         size += len(chunk)
-        if size > BODY_MAX_BYTES:
-            return None
-        chunks.append(chunk)
+        if size <= BODY_MAX_BYTES:
+            body += chunk
         if not message.get("more_body", False):
-            return b"".join(chunks)
+            break
+    return bytes(body) if size <= BODY_MAX_BYTES else None
 
 
 def _is_json(content_type: str) -> bool:
