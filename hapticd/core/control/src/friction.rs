@@ -75,7 +75,9 @@ pub struct FrictionRenderer {
     period_s: f64,
     hand: HandFilter,
     tip_m: Option<V3>,
-    memory: [Memory; MAX_RUBBING],
+    memory: Box<[Memory; MAX_RUBBING]>,
+    /// Of the tick before; exchanged with the present one, not copied.
+    before: Box<[Memory; MAX_RUBBING]>,
     count: usize,
 }
 
@@ -99,7 +101,8 @@ impl FrictionRenderer {
             period_s,
             hand: HandFilter::new(period_s),
             tip_m: None,
-            memory: [Memory::default(); MAX_RUBBING],
+            memory: Box::new([Memory::default(); MAX_RUBBING]),
+            before: Box::new([Memory::default(); MAX_RUBBING]),
             count: 0,
         }
     }
@@ -128,13 +131,12 @@ impl FrictionRenderer {
         };
         let rubbing = &rubbing[..rubbing.len().min(MAX_RUBBING)];
         let normal_n = shared_normal_n(rubbing, motion.hand_n.as_ref());
-        let mut memory = [Memory::default(); MAX_RUBBING];
+        core::mem::swap(&mut self.memory, &mut self.before);
         let mut total = FrictionForce::default();
         for (i, rub) in rubbing.iter().enumerate() {
-            memory[i] = self.recall(rub.key);
-            add(&mut total, rub, normal_n[i], &motion, &mut memory[i]);
+            self.memory[i] = self.recall(rub.key);
+            add(&mut total, rub, normal_n[i], &motion, &mut self.memory[i]);
         }
-        self.memory = memory;
         self.count = rubbing.len();
         total
     }
@@ -152,7 +154,7 @@ impl FrictionRenderer {
     }
 
     fn recall(&self, key: u64) -> Memory {
-        let kept = self.memory[..self.count].iter();
+        let kept = self.before[..self.count].iter();
         let fresh = Memory {
             key,
             ..Memory::default()
