@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 from hapticd.analysis.device_loop import DeviceLoop
@@ -95,8 +96,9 @@ def passive_limits(loop: DeviceLoop, damping_n_s_per_m: float) -> dict[LimitName
     return limits
 
 
+@lru_cache(maxsize=256)
 def stability_budget(loop: DeviceLoop, law: WallLaw, simulated: Simulated) -> StabilityBudget:
-    """The budget of one wall. About 3 ms: nothing is simulated here."""
+    """The budget of one wall. About 3 ms the first time: nothing is simulated here."""
     granted, damping = law.stiffness_n_per_m, law.damping_n_s_per_m
     limits = passive_limits(loop, damping)
     largest_passive = min(limits.values())
