@@ -45,7 +45,7 @@ def test_address_can_be_opened_in_a_browser() -> None:
     assert address_of(version_6) == "http://[::1]:8420/"
 
 
-def test_frozen_client_gets_little_stale_data() -> None:
+def test_frozen_client_gets_little_stale_data_and_small_answers_do_not_wait() -> None:
     with closing(listen(ApiConfig(port=0))) as listener:
         listener.listen()
         with (
@@ -53,7 +53,9 @@ def test_frozen_client_gets_little_stale_data() -> None:
             closing(listener.accept()[0]) as accepted,
         ):
             kept = accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT)
+            prompt = accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
     assert kept == NOTSENT_LOWAT_BYTES
+    assert prompt, "small answers wait for the client's delayed ACK"
 
 
 @pytest.mark.system
