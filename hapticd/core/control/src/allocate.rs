@@ -257,5 +257,12 @@ impl Allocator {
 pub fn bridge_nm(wanted_nm: f64, hold_nm: f64, brake_nm: f64) -> f64 {
     let to_wanted = wanted_nm - brake_nm;
     let to_held = to_wanted + hold_nm;
-    0.0_f64.clamp(to_wanted.min(to_held), to_wanted.max(to_held))
+    // Not `clamp`: it panics where a bound is no number. This passes it on, and the bounds stop it.
+    if to_wanted * to_held <= 0.0 {
+        0.0
+    } else if to_wanted.abs() < to_held.abs() {
+        to_wanted
+    } else {
+        to_held
+    }
 }

@@ -419,3 +419,11 @@ proptest! {
         prop_assert!(ahead >= here - 1e-9 && ahead - here < 0.01 * built_up + 1e-9);
     }
 }
+
+#[test]
+fn value_that_is_not_finite_reaches_the_bounds_instead_of_ending_the_loop() {
+    for wanted_nm in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(!hapticd_control::allocate::bridge_nm(wanted_nm, 0.0, 1.0).is_finite());
+    }
+    assert!(hapticd_control::allocate::bridge_nm(2.0, f64::NAN, 1.0).is_nan());
+}
